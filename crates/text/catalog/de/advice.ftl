@@ -57,6 +57,11 @@ advice-uneven-distance = Ihr Abstand { $surface ->
         [stay_cable] von den Schrägseilen
        *[structure] vom Bauwerk
     } schwankte und wich bei { $at } um { $most } m ab: Folgen Sie der Form der Bahn.
+advice-uneven-height = Ihre Höhe über der Bahn schwankte{ $place ->
+        [task] {" "}bei Aufgabe { $tasks }
+        [tasks] {" "}bei den Aufgaben { $tasks }
+       *[none] {""}
+    }, am stärksten bei { $at } um { $most } m: Halten Sie die Höhe.
 advice-too-high = Sie sind { $mean } m über der Bahn geflogen, { $when }: Sinken Sie auf die Bahn.
 advice-too-low = Sie sind { $mean } m unter der Bahn geflogen, { $when }: Steigen Sie auf die Bahn.
 advice-speeding = Sie sind{ $place ->
@@ -70,6 +75,11 @@ advice-stick-reversals = Sie haben die Steuerknüppel{ $place ->
         [tasks] {" "}bei den Aufgaben { $tasks }
        *[none] {""}
     } bis zu { $most }-mal pro Minute umgesteuert, am häufigsten ab { $at }: Korrigieren Sie sanft und in kleinen Schritten.
+advice-stick-jumps = Sie haben die Steuerknüppel{ $place ->
+        [task] {" "}bei Aufgabe { $tasks }
+        [tasks] {" "}bei den Aufgaben { $tasks }
+       *[none] {""}
+    } bis zu { $most }-mal pro Minute ruckartig bewegt, am häufigsten ab { $at }: Bewegen Sie sie gleichmäßig.
 advice-yaw-reversals = Sie haben den Gierknüppel{ $place ->
         [task] {" "}bei Aufgabe { $tasks }
         [tasks] {" "}bei den Aufgaben { $tasks }
@@ -189,6 +199,17 @@ advice-moving-pictures =
            *[other] zuerst bei
         }
     } { $at }: Halten Sie vor jedem Bild an.
+advice-drifting-pictures =
+    { $taken ->
+        [one] Bei Ihrem einzigen Bild trieb die Drohne ab, bei
+       *[other] Bei { $count ->
+            [one] einem
+           *[other] { $count }
+        } Ihrer { $taken } Bilder trieb die Drohne ab, { $count ->
+            [one] bei
+           *[other] zuerst bei
+        }
+    } { $at }: Lassen Sie sie vor jedem Bild zur Ruhe kommen.
 advice-pictures-of-nothing = { $taken ->
         [one] Auf Ihrem einzigen Bild, bei { $at }, ist kein neuer Schaden zu sehen
        *[other] Auf { $count } Ihrer { $taken } Bilder ist kein neuer Schaden zu sehen, { $count ->
@@ -208,6 +229,7 @@ advice-not-covered = Sie haben nur { $shares } { $place ->
        *[none] der Bahn geflogen und sie
     } bei { $at } verlassen: Fliegen Sie jede Bahn bis zum Ende.
 advice-overtime = Sie sind { $flown } geflogen, { $over } länger als für die volle Punktzahl erlaubt; die Zeit war bei { $at } um: Planen Sie die Reihenfolge der Aufgaben.
+advice-slow = Sie sind { $flown } geflogen; bei Inspektionsgeschwindigkeit braucht dieser Auftrag { $needed }, die bei { $at } um waren: Verweilen Sie nicht, wo nichts zu sehen ist.
 advice-not-landed = Ihr Flug endete bei { $at }, { $away } m vom Landeplatz: Fliegen Sie zurück und landen Sie dort.
 advice-battery-low = Am Ende waren noch { $left }% Akku übrig; die Reserve von { $reserve }% war bei { $at } erreicht: Kehren Sie früher um.
 advice-time-up = Ihre Zeit war bei { $at } um, { $away } m vom Landeplatz: Kehren Sie früher um.

@@ -60,6 +60,11 @@ advice-uneven-distance = Your distance from { $surface ->
         [stay_cable] the stays
        *[structure] the structure
     } varied, up to { $most } m off at { $at }: follow the shape of the path.
+advice-uneven-height = Your height above the path changed{ $place ->
+        [task] {" "}in task { $tasks }
+        [tasks] {" "}in tasks { $tasks }
+       *[none] {""}
+    }, up to { $most } m off at { $at }: hold your height.
 advice-too-high = You flew { $mean } m above the path { $when }: descend to it.
 advice-too-low = You flew { $mean } m below the path { $when }: climb to it.
 advice-speeding = You flew up to { $most } m/s{ $place ->
@@ -73,6 +78,11 @@ advice-stick-reversals = You reversed the sticks up to { $most } times a minute{
         [tasks] {" "}in tasks { $tasks }
        *[none] {""}
     }, most often from { $at }: make small, smooth corrections.
+advice-stick-jumps = You jerked the sticks up to { $most } times a minute{ $place ->
+        [task] {" "}in task { $tasks }
+        [tasks] {" "}in tasks { $tasks }
+       *[none] {""}
+    }, most often from { $at }: move them gradually.
 advice-yaw-reversals = You reversed the yaw stick up to { $most } times a minute{ $place ->
         [task] {" "}in task { $tasks }
         [tasks] {" "}in tasks { $tasks }
@@ -192,6 +202,14 @@ advice-moving-pictures =
            *[other] first at
         }
     } { $at }: stop before every picture.
+advice-drifting-pictures =
+    { $taken ->
+        [one] The drone was drifting when you took your only picture, at
+       *[other] The drone was drifting in { $count } of { $taken } pictures, { $count ->
+            [one] at
+           *[other] first at
+        }
+    } { $at }: let it come to rest first.
 advice-pictures-of-nothing = { $taken ->
         [one] Your only picture, at { $at }, shows no new defect
        *[other] { $count } of your { $taken } pictures { $count ->
@@ -212,6 +230,7 @@ advice-not-covered = You flew only { $shares } of { $place ->
        *[none] the path and left it
     } at { $at }: fly each path to its end.
 advice-overtime = You flew for { $flown }, { $over } longer than full points allow; the time was up at { $at }: plan the order of the tasks.
+advice-slow = You flew for { $flown }; this job needs { $needed } at inspection speed, which were over at { $at }: don't linger where there is nothing to see.
 advice-not-landed = Your flight ended at { $at }, { $away } m from the pad: fly back and land on it.
 advice-battery-low = You ended with { $left }% battery; the { $reserve }% reserve was reached at { $at }: turn back earlier.
 advice-time-up = Your time was up at { $at }, { $away } m from the pad: turn back earlier.

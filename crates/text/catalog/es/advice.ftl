@@ -57,6 +57,11 @@ advice-uneven-distance = Su distancia { $surface ->
         [stay_cable] de los tirantes
        *[structure] de la estructura
     } varió y se apartó { $most } m a los { $at }: siga la forma de la trayectoria.
+advice-uneven-height = Su altura sobre la trayectoria varió{ $place ->
+        [task] {" "}en la tarea { $tasks }
+        [tasks] {" "}en las tareas { $tasks }
+       *[none] {""}
+    }, hasta { $most } m a los { $at }: mantenga la altura.
 advice-too-high = Voló { $mean } m por encima de la trayectoria { $when }: descienda hasta ella.
 advice-too-low = Voló { $mean } m por debajo de la trayectoria { $when }: ascienda hasta ella.
 advice-speeding = Alcanzó { $most } m/s{ $place ->
@@ -70,6 +75,11 @@ advice-stick-reversals = Invirtió el movimiento de las palancas hasta { $most }
         [tasks] {" "}en las tareas { $tasks }
        *[none] {""}
     }, sobre todo desde { $at }: haga correcciones pequeñas y suaves.
+advice-stick-jumps = Movió las palancas a tirones hasta { $most } veces por minuto{ $place ->
+        [task] {" "}en la tarea { $tasks }
+        [tasks] {" "}en las tareas { $tasks }
+       *[none] {""}
+    }, sobre todo desde los { $at }: muévalas gradualmente.
 advice-yaw-reversals = Invirtió el movimiento de la palanca de guiñada hasta { $most } veces por minuto{ $place ->
         [task] {" "}en la tarea { $tasks }
         [tasks] {" "}en las tareas { $tasks }
@@ -186,6 +196,14 @@ advice-moving-pictures =
            *[other] la primera a los
         }
     } { $at }: deténgase antes de cada foto.
+advice-drifting-pictures =
+    { $taken ->
+        [one] El dron derivaba cuando tomó su única foto, a los
+       *[other] El dron derivaba en { $count } de { $taken } fotos, { $count ->
+            [one] a los
+           *[other] la primera a los
+        }
+    } { $at }: espere a que se detenga antes de cada foto.
 advice-pictures-of-nothing = { $taken ->
         [one] Su única foto, a los { $at }, no muestra ningún defecto nuevo
        *[other] { $count } de sus { $taken } fotos { $count ->
@@ -205,6 +223,7 @@ advice-not-covered = Recorrió solo { $shares } { $place ->
        *[none] de la trayectoria y la dejó
     } a los { $at }: recorra cada trayectoria hasta el final.
 advice-overtime = Voló durante { $flown }, { $over } más de lo que permite la puntuación completa; el tiempo se cumplió a los { $at }: planifique el orden de las tareas.
+advice-slow = Voló durante { $flown }; a velocidad de inspección, este trabajo necesita { $needed }, que se cumplieron a los { $at }: no se demore donde no hay nada que ver.
 advice-not-landed = Su vuelo terminó a los { $at }, a { $away } m de la plataforma de aterrizaje: regrese y aterrice en ella.
 advice-battery-low = Terminó con { $left }% de batería; la reserva de { $reserve }% se alcanzó a los { $at }: regrese antes.
 advice-time-up = Su tiempo se agotó a los { $at }, a { $away } m de la plataforma de aterrizaje: regrese antes.

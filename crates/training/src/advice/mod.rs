@@ -245,11 +245,13 @@ fn task_sentence(measure: TaskMeasure, rule: &PlanRule, tasks: &[u32], scan: &Fl
         TaskMeasure::UnevenStandOff => technique::uneven_stand_off(scan, tasks),
         TaskMeasure::TooLow => technique::height(scan, tasks, rule.limit, -1.0),
         TaskMeasure::TooHigh => technique::height(scan, tasks, rule.limit, 1.0),
+        TaskMeasure::UnevenHeight => technique::uneven_height(scan, tasks),
         TaskMeasure::LowClearance => technique::low_clearance(scan, tasks),
         TaskMeasure::Framing => camera::framing(scan, tasks),
         TaskMeasure::LampOff => camera::lamp_off(scan, tasks),
         TaskMeasure::StickReversals => technique::reversals(scan, tasks, &[0, 1, 2]),
         TaskMeasure::YawReversals => technique::reversals(scan, tasks, &[3]),
+        TaskMeasure::StickJumps => technique::jumps(scan, tasks),
         TaskMeasure::MissedAtTask => pictures::none_found(scan, tasks),
     }
 }
@@ -268,7 +270,9 @@ fn session_sentence(measure: SessionMeasure, rule: &PlanRule, scan: &FlightScan<
         SessionMeasure::NoPictures => pictures::none_taken(scan),
         SessionMeasure::FalseSnapshots => pictures::without_defect(scan),
         SessionMeasure::MovingPictures => pictures::in_motion(scan),
+        SessionMeasure::DriftingPictures => pictures::while_drifting(scan),
         SessionMeasure::Overtime => session_end::overtime(scan),
+        SessionMeasure::Slow => session_end::slow(scan),
         SessionMeasure::NotLanded => session_end::not_landed(scan),
         SessionMeasure::BatteryLow => session_end::battery_low(scan),
         SessionMeasure::BatteryFailed => session_end::battery_failed(scan),

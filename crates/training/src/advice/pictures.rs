@@ -3,8 +3,9 @@
 use super::flight_scan::{FlightScan, MissedDefect};
 use super::wording::{Place, Sentence};
 use crate::plan::MIN_SEVERE_CONDITION_STATE;
-use crate::record::{DefectRecord, is_in_motion};
+use crate::record::{DefectRecord, is_drifting, is_in_motion};
 use crate::time_text::clock;
+use spandrel_mavlink::telemetry::Frame;
 use spandrel_monitor::measures::attention::Snapshot;
 use spandrel_text::text;
 
@@ -100,11 +101,24 @@ pub(super) fn none_found(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence>
 
 /// Pictures taken in motion.
 pub(super) fn in_motion(scan: &FlightScan<'_>) -> Option<Sentence> {
-    let taken: Vec<usize> = (0..scan.frames().len()).filter(|frame| scan.frames()[*frame].snapshot).collect();
-    let moving: Vec<usize> = taken.iter().copied().filter(|frame| is_in_motion(&scan.frames()[*frame])).collect();
-    let first = *moving.first()?;
-    let (count, taken, at) = (moving.len(), taken.len(), clock(scan.t_s(first)));
+    let (first, count, taken) = pictures_in(scan, is_in_motion)?;
+    let at = clock(scan.t_s(first));
     Some((text!(scan.language, "advice-moving-pictures", count = count, taken = taken, at = at), first))
+}
+
+/// Pictures taken while the drone drifted.
+pub(super) fn while_drifting(scan: &FlightScan<'_>) -> Option<Sentence> {
+    let (first, count, taken) = pictures_in(scan, is_drifting)?;
+    let at = clock(scan.t_s(first));
+    Some((text!(scan.language, "advice-drifting-pictures", count = count, taken = taken, at = at), first))
+}
+
+/// Returns the first of the pictures in such frames, and the numbers of these and of all pictures; `None` if there is no such picture.
+fn pictures_in(scan: &FlightScan<'_>, is_meant: fn(&Frame) -> bool) -> Option<(usize, usize, usize)> {
+    let taken = || scan.frames().iter().enumerate().filter(|(_, frame)| frame.snapshot);
+    let meant = || taken().filter(|(_, frame)| is_meant(frame));
+    let (first, _) = meant().next()?;
+    Some((first, meant().count(), taken().count()))
 }
 
 /// Pictures without a new defect.

@@ -39,6 +39,14 @@ pub(super) fn overtime(scan: &FlightScan<'_>) -> Option<Sentence> {
     Some((text!(scan.language, "advice-overtime", flown = flown, over = over, at = at), scan.frame_at(best_s)))
 }
 
+/// Longer than the job needs. The moment is when that time was over.
+pub(super) fn slow(scan: &FlightScan<'_>) -> Option<Sentence> {
+    let time = &scan.evidence.assessed_session.assessment.certification.time;
+    let (flown, needed, at) = (duration(time.flown_s), duration(time.needed_s), clock(time.needed_s));
+    let words = text!(scan.language, "advice-slow", flown = flown, needed = needed, at = at);
+    Some((words, scan.frame_at(time.needed_s)))
+}
+
 pub(super) fn not_landed(scan: &FlightScan<'_>) -> Option<Sentence> {
     let (last, at) = end(scan);
     let away = pad_distance(scan, last)?;

@@ -2,7 +2,7 @@
 
 use super::flight_scan::{FlightScan, Stretches};
 use super::wording::{Place, Sentence, surface, when};
-use crate::record::{MAX_OFF_PATH_DISTANCE_M, clearance_limit_m};
+use crate::record::{MAX_OFF_PATH_DISTANCE_M, TaskTechnique, clearance_limit_m};
 use crate::time_text::clock;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::numbers::format_limit;
@@ -77,10 +77,25 @@ pub(super) fn stand_off(scan: &FlightScan<'_>, ids: &[u32], limit_m: f64, sign: 
 pub(super) fn uneven_stand_off(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
     let tasks = scan.task_indices(ids);
     let error_m = |frame: usize| scan.near(frame, &tasks)?.stand_off_error_m(&scan.evidence.scenario.tasks).map(f64::abs);
-    let errors_m = (0..scan.frames().len()).filter_map(|frame| Some((frame, error_m(frame)?)));
-    let (frame, most_m) = errors_m.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?;
+    let (frame, most_m) = largest(scan, error_m)?;
     let (surface, most, at) = (surface(scan, &tasks), format!("{most_m:.1}"), clock(scan.t_s(frame)));
     Some((text!(scan.language, "advice-uneven-distance", surface = surface, most = most, at = at), frame))
+}
+
+/// Changing height. The moment is that of the largest error.
+pub(super) fn uneven_height(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let error_m = |frame: usize| scan.near(frame, &tasks)?.height_error_m(&scan.evidence.scenario.tasks).map(f64::abs);
+    let (frame, most_m) = largest(scan, error_m)?;
+    let (most, at) = (format!("{most_m:.1}"), clock(scan.t_s(frame)));
+    let Place { kind, tasks } = Place::of(scan, ids);
+    Some((text!(scan.language, "advice-uneven-height", most = most, place = kind, tasks = tasks, at = at), frame))
+}
+
+/// Returns the first frame with the largest value, and the value.
+fn largest(scan: &FlightScan<'_>, value: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
+    let values = (0..scan.frames().len()).filter_map(|frame| Some((frame, value(frame)?)));
+    values.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
 }
 
 /// Too high (`sign` is 1) or too low (-1).
@@ -147,14 +162,27 @@ fn too_close(scan: &FlightScan<'_>, place: Place, limit_m: f64, clearance_m: imp
     Some((words, stretches.longest))
 }
 
+/// Returns the largest rate per minute of these tasks, as text.
+fn highest_rate(scan: &FlightScan<'_>, ids: &[u32], rate: impl Fn(TaskTechnique) -> f64) -> String {
+    let tasks = scan.evidence.record.tasks.iter().filter(|task| ids.contains(&task.id));
+    format!("{:.0}", tasks.filter_map(|task| task.technique).map(rate).fold(0.0, f64::max))
+}
+
+/// Jumps of the sticks.
+pub(super) fn jumps(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let most = highest_rate(scan, ids, |technique| technique.stick_jumps_per_min.unwrap_or(0.0));
+    let frame = busiest(scan, &scan.task_indices(ids), &[0, 1, 2])?;
+    let (Place { kind, tasks }, at) = (Place::of(scan, ids), clock(scan.t_s(frame)));
+    Some((text!(scan.language, "advice-stick-jumps", most = most, place = kind, tasks = tasks, at = at), frame))
+}
+
 /// Reversals of the sticks with the given indices.
 pub(super) fn reversals(scan: &FlightScan<'_>, ids: &[u32], axes: &[usize]) -> Option<Sentence> {
     let tasks = scan.task_indices(ids);
-    let per_min = scan.evidence.record.tasks.iter().filter(|task| ids.contains(&task.id)).filter_map(|task| task.technique);
-    let of = |technique: crate::record::TaskTechnique| {
+    let of = |technique: TaskTechnique| {
         if axes == [3] { technique.yaw_reversals_per_min } else { technique.stick_reversals_per_min }
     };
-    let most = format!("{:.0}", per_min.map(of).fold(0.0, f64::max));
+    let most = highest_rate(scan, ids, of);
     let frame = busiest(scan, &tasks, axes)?;
     let (Place { kind, tasks }, at) = (Place::of(scan, ids), clock(scan.t_s(frame)));
     let words = if axes == [3] {

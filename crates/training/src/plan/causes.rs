@@ -40,7 +40,7 @@ pub(super) fn rank(findings: Vec<Finding<'_>>) -> Vec<RankedFinding<'_>> {
 }
 
 fn direct_cause(ranked: &[RankedFinding<'_>], effect: &RankedFinding<'_>) -> Option<usize> {
-    ranked.iter().position(|cause| {
-        cause.finding.rule.explains.contains(&effect.finding.rule.name) && cause.finding.shares_scope_with(&effect.finding)
-    })
+    ranked
+        .iter()
+        .position(|cause| cause.finding.rule.explains(effect.finding.rule) && cause.finding.shares_scope_with(&effect.finding))
 }

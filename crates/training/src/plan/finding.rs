@@ -134,11 +134,13 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
         TaskMeasure::UnevenStandOff => near?.stand_off_spread_m,
         TaskMeasure::TooLow => surplus(near?.height_error_m, -1.0),
         TaskMeasure::TooHigh => surplus(near?.height_error_m, 1.0),
+        TaskMeasure::UnevenHeight => near?.height_spread_m,
         TaskMeasure::LowClearance => near.map(|near| near.low_clearance),
         TaskMeasure::Framing => near?.rms_framing_deg,
         TaskMeasure::LampOff => near?.lamp_off,
         TaskMeasure::StickReversals => near.map(|near| near.stick_reversals_per_min),
         TaskMeasure::YawReversals => near.map(|near| near.yaw_reversals_per_min),
+        TaskMeasure::StickJumps => near?.stick_jumps_per_min,
         TaskMeasure::MissedAtTask => {
             let searched = task.state == Some(TaskState::Done) && task.defects_placed >= MIN_DEFECTS;
             searched.then(|| 1.0 - task.defects_found as f64 / task.defects_placed as f64)
@@ -190,6 +192,11 @@ fn session_value(rule: &PlanRule, measure: SessionMeasure, record: &SessionRecor
         SessionMeasure::BatteryLow => yes(record.battery_at_end_pct < BATTERY_RESERVE_PCT),
         SessionMeasure::BatteryFailed => yes(record.battery_failed),
         SessionMeasure::MovingPictures => record.technique?.moving_pictures,
+        SessionMeasure::DriftingPictures => record.technique?.drifting_pictures,
+        SessionMeasure::Slow => {
+            let efficiency = record.certification.as_ref()?.scores.efficiency;
+            record.is_complete().then(|| 1.0 - efficiency / 100.0)
+        }
         SessionMeasure::Exposure => record.technique.map(|technique| technique.exposure_s),
     }
 }

@@ -36,6 +36,8 @@ pub enum TaskMeasure {
     TooLow,
     /// Median height above the path, m.
     TooHigh,
+    /// Change of the height above the path: half its range, without the outermost tenths, m.
+    UnevenHeight,
     /// Fraction of the time near the path below the minimum clearance.
     LowClearance,
     /// RMS framing error of the certification profile, degrees.
@@ -46,6 +48,8 @@ pub enum TaskMeasure {
     StickReversals,
     /// Reversals of the yaw stick per minute near the path.
     YawReversals,
+    /// Jumps of the forward, right and up sticks per minute near the path.
+    StickJumps,
     /// Fraction of a done task's defects not shown in any picture, if it has at least two.
     MissedAtTask,
 }
@@ -75,8 +79,12 @@ pub enum SessionMeasure {
     FalseSnapshots,
     /// Fraction of pictures taken above 0.5 m/s.
     MovingPictures,
+    /// Fraction of pictures taken at 0.2 to 0.5 m/s.
+    DriftingPictures,
     /// Flight time beyond the time for full efficiency, min.
     Overtime,
+    /// Flight time beyond what the job needs, as the fraction of the certification's efficiency that is lost.
+    Slow,
     /// 1 if the flight did not end with a landing at home.
     NotLanded,
     /// 1 if the battery charge was below 20% at the end.
@@ -120,11 +128,13 @@ pub const MEASURES: &[(&str, RuleMeasure)] = &[
     ("uneven_stand_off", RuleMeasure::Task(TaskMeasure::UnevenStandOff)),
     ("too_low", RuleMeasure::Task(TaskMeasure::TooLow)),
     ("too_high", RuleMeasure::Task(TaskMeasure::TooHigh)),
+    ("uneven_height", RuleMeasure::Task(TaskMeasure::UnevenHeight)),
     ("low_clearance", RuleMeasure::Task(TaskMeasure::LowClearance)),
     ("framing", RuleMeasure::Task(TaskMeasure::Framing)),
     ("lamp_off", RuleMeasure::Task(TaskMeasure::LampOff)),
     ("stick_reversals", RuleMeasure::Task(TaskMeasure::StickReversals)),
     ("yaw_reversals", RuleMeasure::Task(TaskMeasure::YawReversals)),
+    ("stick_jumps", RuleMeasure::Task(TaskMeasure::StickJumps)),
     ("missed_at_task", RuleMeasure::Task(TaskMeasure::MissedAtTask)),
     ("crashes_outside", RuleMeasure::Session(SessionMeasure::CrashesOutside)),
     ("crashes_all", RuleMeasure::Session(SessionMeasure::CrashesAll)),
@@ -137,7 +147,9 @@ pub const MEASURES: &[(&str, RuleMeasure)] = &[
     ("no_pictures", RuleMeasure::Session(SessionMeasure::NoPictures)),
     ("false_snapshots", RuleMeasure::Session(SessionMeasure::FalseSnapshots)),
     ("moving_pictures", RuleMeasure::Session(SessionMeasure::MovingPictures)),
+    ("drifting_pictures", RuleMeasure::Session(SessionMeasure::DriftingPictures)),
     ("overtime", RuleMeasure::Session(SessionMeasure::Overtime)),
+    ("slow", RuleMeasure::Session(SessionMeasure::Slow)),
     ("not_landed", RuleMeasure::Session(SessionMeasure::NotLanded)),
     ("battery_low", RuleMeasure::Session(SessionMeasure::BatteryLow)),
     ("battery_failed", RuleMeasure::Session(SessionMeasure::BatteryFailed)),
@@ -165,12 +177,16 @@ impl TaskMeasure {
             | Self::LowClearance
             | Self::LampOff
             | Self::MissedAtTask => MeasureUnit::Fraction,
-            Self::OffHeight | Self::TooFar | Self::TooClose | Self::TooLow | Self::TooHigh | Self::UnevenStandOff => {
-                MeasureUnit::Meters
-            }
+            Self::OffHeight
+            | Self::TooFar
+            | Self::TooClose
+            | Self::TooLow
+            | Self::TooHigh
+            | Self::UnevenStandOff
+            | Self::UnevenHeight => MeasureUnit::Meters,
             Self::Crashes | Self::NotAttempted => MeasureUnit::Count,
             Self::Framing => MeasureUnit::Degrees,
-            Self::StickReversals | Self::YawReversals => MeasureUnit::PerMinute,
+            Self::StickReversals | Self::YawReversals | Self::StickJumps => MeasureUnit::PerMinute,
         }
     }
 }
@@ -183,7 +199,9 @@ impl SessionMeasure {
             | Self::MissedLines
             | Self::PoorPictures
             | Self::FalseSnapshots
-            | Self::MovingPictures => MeasureUnit::Fraction,
+            | Self::MovingPictures
+            | Self::DriftingPictures
+            | Self::Slow => MeasureUnit::Fraction,
             Self::MissedInView | Self::Exposure => MeasureUnit::Seconds,
             Self::Overtime => MeasureUnit::Minutes,
             Self::CrashesOutside

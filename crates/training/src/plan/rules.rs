@@ -34,6 +34,8 @@ const CRASH_OBJECTS: &[(&str, Option<&str>)] = &[
 pub struct PlanRule {
     /// Unique name of the rule.
     pub name: String,
+    /// Group that other rules can name in `explains`; empty for none.
+    pub group: String,
     /// Measure that is compared with the limit.
     pub measure: RuleMeasure,
     /// Kind of task; `None` for all kinds.
@@ -52,10 +54,23 @@ pub struct PlanRule {
     pub scenario: String,
     /// Scenario to fly if `scenario` is not installed; empty for none.
     pub otherwise: String,
-    /// Names of the rules whose findings in the same task or session are consequences of this one.
+    /// Names of the rules, or of groups of rules, whose findings in the same task or session are consequences of this one.
     pub explains: Vec<String>,
     /// Text shown to the trainee, with placeholders for values.
     pub reason: String,
+}
+
+impl PlanRule {
+    /// Returns whether findings of the other rule are consequences of this one's.
+    #[must_use]
+    pub fn explains(&self, other: &Self) -> bool {
+        self.explains.iter().any(|effect| other.is_named(effect))
+    }
+
+    /// Returns whether this is the rule's name or that of its group.
+    fn is_named(&self, name: &str) -> bool {
+        self.name == name || (!self.group.is_empty() && self.group == name)
+    }
 }
 
 /// Criterion at which a session of a drill counts toward mastery.
@@ -242,6 +257,7 @@ fn read_rule(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
     let in_tasks = reader.integer(section, "in_tasks", (1, MAX_IN_TASKS), Some(1));
     let rule = PlanRule {
         name: reader.text(section, "name", None),
+        group: reader.text(section, "group", Some("")),
         measure: reader.keyword(section, "measure", MEASURES, None),
         task: reader.keyword(section, "task", &task_kinds(), Some(0)),
         in_tasks: usize::try_from(in_tasks).unwrap_or(1),
@@ -290,6 +306,7 @@ fn read_drills(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Vec<DrillCrit
 fn read_limit(reader: &mut Reader<'_>, mut section: Section<'_>) -> PlanRule {
     let rule = PlanRule {
         name: String::new(),
+        group: String::new(),
         measure: reader.keyword(&mut section, "measure", MEASURES, None),
         task: None,
         in_tasks: 1,
@@ -306,11 +323,16 @@ fn read_limit(reader: &mut Reader<'_>, mut section: Section<'_>) -> PlanRule {
     rule
 }
 
-/// Checks that every rule named in `explains` exists, and that no rule explains itself, directly or indirectly.
+/// Checks that every rule or group named in `explains` exists, that no group has the name of a rule, and that no rule explains
+/// itself, directly or indirectly.
 fn check_causes(reader: &mut Reader<'_>, rules: &[(Section<'_>, PlanRule)]) {
     for (section, rule) in rules {
-        for effect in rule.explains.iter().filter(|effect| !rules.iter().any(|(_, other)| other.name == **effect)) {
-            reader.add_problem(section, "explains", effect, "names of rules in this file", "unknown rule");
+        if !rule.group.is_empty() && rules.iter().any(|(_, other)| other.name == rule.group) {
+            reader.add_problem(section, "group", &rule.group, "a name that no rule has", "group with the name of a rule");
+        }
+        for effect in rule.explains.iter().filter(|effect| !rules.iter().any(|(_, other)| other.is_named(effect))) {
+            let allowed = "names of rules or groups in this file";
+            reader.add_problem(section, "explains", effect, allowed, "unknown rule or group");
         }
         if explains_itself(rule, rules) {
             let allowed = "rules that do not explain this one";
@@ -320,16 +342,17 @@ fn check_causes(reader: &mut Reader<'_>, rules: &[(Section<'_>, PlanRule)]) {
 }
 
 fn explains_itself(rule: &PlanRule, rules: &[(Section<'_>, PlanRule)]) -> bool {
-    let mut reached: Vec<&str> = Vec::new();
-    let mut open: Vec<&str> = rule.explains.iter().map(String::as_str).collect();
-    while let Some(name) = open.pop() {
-        if name == rule.name {
-            return true;
-        }
-        if !reached.contains(&name) {
-            reached.push(name);
-            let next = rules.iter().filter(|(_, other)| other.name == name);
-            open.extend(next.flat_map(|(_, other)| other.explains.iter().map(String::as_str)));
+    let mut reached: Vec<&PlanRule> = Vec::new();
+    let mut open = vec![rule];
+    while let Some(cause) = open.pop() {
+        for (_, effect) in rules.iter().filter(|(_, other)| cause.explains(other)) {
+            if effect.name == rule.name {
+                return true;
+            }
+            if !reached.iter().any(|seen| seen.name == effect.name) {
+                reached.push(effect);
+                open.push(effect);
+            }
         }
     }
     false

@@ -1,6 +1,7 @@
 use super::*;
-use crate::record::{Crashes, DefectRecord, SessionLevel, TaskRecord};
+use crate::record::{CertificationRecord, Crashes, DefectRecord, SessionLevel, TaskRecord};
 use crate::testing::{aborted_record, perfect_record, untranslated_word};
+use spandrel_monitor::score::certification::CertificationScores;
 use spandrel_monitor::score::completion::TaskState;
 
 const NOW: u64 = 1_700_000_000_000_000 + 864_000_000_000;
@@ -40,11 +41,13 @@ fn set_task(task: &mut TaskRecord, measure: TaskMeasure, value: f64, crashes: Cr
         TaskMeasure::UnevenStandOff => technique.stand_off_spread_m = Some(value),
         TaskMeasure::TooLow => technique.height_error_m = Some(-value),
         TaskMeasure::TooHigh => technique.height_error_m = Some(value),
+        TaskMeasure::UnevenHeight => technique.height_spread_m = Some(value),
         TaskMeasure::LowClearance => technique.low_clearance = value,
         TaskMeasure::Framing => technique.rms_framing_deg = Some(value),
         TaskMeasure::LampOff => technique.lamp_off = Some(value),
         TaskMeasure::StickReversals => technique.stick_reversals_per_min = value,
         TaskMeasure::YawReversals => technique.yaw_reversals_per_min = value,
+        TaskMeasure::StickJumps => technique.stick_jumps_per_min = Some(value),
         TaskMeasure::MissedAtTask => {
             (task.state, task.defects_placed, task.defects_found) =
                 (Some(TaskState::Done), 100, (100.0 * (1.0 - value)).round() as usize);
@@ -84,12 +87,22 @@ fn set_session(record: &mut SessionRecord, rule: &PlanRule, measure: SessionMeas
         SessionMeasure::NoPictures => record.snapshots = if over { 0 } else { 10 },
         SessionMeasure::FalseSnapshots => (record.snapshots, record.hits) = (1000, (1000.0 * (1.0 - value)).round() as usize),
         SessionMeasure::MovingPictures => record.technique.as_mut().unwrap().moving_pictures = Some(value),
+        SessionMeasure::DriftingPictures => record.technique.as_mut().unwrap().drifting_pictures = Some(value),
+        SessionMeasure::Slow => record.certification = Some(certification_with_efficiency(100.0 * (1.0 - value))),
         SessionMeasure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
         SessionMeasure::NotLanded => record.end_reason = if over { "abort".into() } else { "landed".into() },
         SessionMeasure::BatteryLow => record.battery_at_end_pct = if over { 19.0 } else { 21.0 },
         SessionMeasure::BatteryFailed => record.battery_failed = over,
         SessionMeasure::Exposure => record.technique.as_mut().unwrap().exposure_s = value,
     }
+}
+
+fn certification_with_efficiency(efficiency: f64) -> CertificationRecord {
+    let perfect = Some(100.0);
+    let (conformity, accuracy, precision, safety) = (perfect, perfect, perfect, 100.0);
+    let scores =
+        CertificationScores { conformity, efficiency, safety, accuracy, precision, sum: 400.0 + efficiency, sum_max: 500.0 };
+    CertificationRecord { scores, requirements: Vec::new(), precision: None }
 }
 
 /// Returns a record in which the rule's measure is `factor` times its limit.

@@ -21,6 +21,13 @@ const REVERSAL_GAP: f64 = 0.2;
 const MAX_LEVEL_VIEW_UP: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Speed above which a picture counts as taken in motion, m/s (estimate: position hold in a breeze stays below it).
 const MOVING_M_S: f64 = 0.5;
+/// Speed above which the drone drifts while a picture is taken, m/s (estimate: careful pilots take theirs below 0.15 m/s).
+const DRIFTING_M_S: f64 = 0.2;
+/// Stick movement from one frame to the next that counts as a jump, as a fraction of the travel from the center to the stop (estimate).
+const JUMP: f64 = 0.1;
+/// Deflection from which a stick isn't centered, as a fraction of that travel (estimate). To let go of a stick or to start a movement
+/// with a key is no jump.
+const DEFLECTED: f64 = 0.02;
 /// Lower and upper quantile between which a spread is measured: a short excursion doesn't count.
 const SPREAD_QUANTILES: (f64, f64) = (0.1, 0.9);
 /// Distance within which the nearest position on a path counts as its end, m.
@@ -45,6 +52,10 @@ pub struct TaskTechnique {
     /// distance changes, wherever its median is. `None` like the median, and in records before format 8.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stand_off_spread_m: Option<f64>,
+    /// Half the range of the height above the path between its 10th and 90th percentile, m. `None` like the median, and in records
+    /// before format 9.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_spread_m: Option<f64>,
     /// RMS framing error of the certification profile, degrees; `None` if the task inspects no surface or its path was
     /// not entered.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -58,6 +69,10 @@ pub struct TaskTechnique {
     pub stick_reversals_per_min: f64,
     /// Number of reversals per minute near the path of the yaw stick.
     pub yaw_reversals_per_min: f64,
+    /// Number of jumps per minute near the path of the forward, right and up sticks together: movements by more than a tenth of the
+    /// travel from one frame to the next, between two deflected positions. `None` in records before format 9.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stick_jumps_per_min: Option<f64>,
     /// Contacts within the task's window, merged if they are less than a second apart.
     pub contacts: Crashes,
     /// Speed of the fastest of these contacts, m/s; 0 without contacts.
@@ -75,6 +90,10 @@ pub struct SessionTechnique {
     /// format 8.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moving_pictures: Option<f64>,
+    /// Fraction of the pictures that were taken while the drone drifted (0.2 to 0.5 m/s), 0 to 1; `None` without pictures, and in
+    /// records before format 9.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drifting_pictures: Option<f64>,
 }
 
 /// Samples of one task, in frame order.
@@ -86,6 +105,8 @@ struct NearSamples {
     low_clearance: usize,
     lamp_off: usize,
     sticks: [ReversalCounter; 4],
+    latest_sticks: Option<[f64; 4]>,
+    jumps: usize,
 }
 
 /// Counts the reversals of one stick axis.
@@ -143,7 +164,8 @@ pub(super) fn session(source: &RecordSource<'_>) -> SessionTechnique {
     SessionTechnique {
         contacts_outside: contacts(source, None).0,
         exposure_s: certification.exposure_s,
-        moving_pictures: moving_pictures(&source.assessed_session.frames),
+        moving_pictures: share_of_pictures(&source.assessed_session.frames, is_in_motion),
+        drifting_pictures: share_of_pictures(&source.assessed_session.frames, is_drifting),
     }
 }
 
@@ -152,11 +174,22 @@ pub fn is_in_motion(frame: &Frame) -> bool {
     !frame.missing && frame.speed_m_s() > MOVING_M_S
 }
 
-fn moving_pictures(frames: &[Frame]) -> Option<f64> {
+/// Returns whether a picture in this frame is taken while the drone drifts.
+pub fn is_drifting(frame: &Frame) -> bool {
+    !frame.missing && frame.speed_m_s() > DRIFTING_M_S && !is_in_motion(frame)
+}
+
+/// Returns the fraction of the pictures that were taken in such frames; `None` without pictures.
+fn share_of_pictures(frames: &[Frame], is_meant: fn(&Frame) -> bool) -> Option<f64> {
     let taken = frames.iter().filter(|frame| frame.snapshot);
-    let moving = taken.clone().filter(|frame| is_in_motion(frame)).count();
+    let meant = taken.clone().filter(|frame| is_meant(frame)).count();
     let taken = taken.count();
-    (taken > 0).then(|| moving as f64 / taken as f64)
+    (taken > 0).then(|| meant as f64 / taken as f64)
+}
+
+/// Returns whether a stick jumps between two positions in consecutive frames.
+fn is_jump((before, after): (f64, f64)) -> bool {
+    (after - before).abs() > JUMP && before.abs() > DEFLECTED && after.abs() > DEFLECTED
 }
 
 /// Returns the merged contacts of a task, or outside all tasks, and the speed of the fastest.
@@ -259,6 +292,9 @@ impl NearSamples {
         for (counter, position) in self.sticks.iter_mut().zip(frame.sticks) {
             counter.add(position);
         }
+        if let Some([forward, right, up, _]) = self.latest_sticks.replace(frame.sticks) {
+            self.jumps += [forward, right, up].into_iter().zip(frame.sticks).filter(|&pair| is_jump(pair)).count();
+        }
     }
 
     fn technique(mut self, task: &Task, passed: f64, frame_s: f64) -> TaskTechnique {
@@ -270,6 +306,7 @@ impl NearSamples {
             near_s,
             passed,
             stand_off_spread_m: spread(&mut self.stand_offs_m),
+            height_spread_m: spread(&mut self.heights_m),
             height_error_m: median(self.heights_m),
             stand_off_error_m: median(self.stand_offs_m),
             rms_framing_deg: None,
@@ -277,6 +314,7 @@ impl NearSamples {
             lamp_off: (task.dark && self.frames > 0).then(|| share(self.lamp_off)),
             stick_reversals_per_min: per_min(forward + right + up),
             yaw_reversals_per_min: per_min(yaw),
+            stick_jumps_per_min: Some(per_min(self.jumps)),
             contacts: Crashes::default(),
             fastest_contact_m_s: 0.0,
         }
