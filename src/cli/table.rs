@@ -205,8 +205,8 @@ end           landed after 12 min 30 s of flight, 0 missing frames
     #[test]
     fn exact_advice_follows_the_headline() {
         let advice: SessionAdvice = serde_json::from_value(json!({
-            "points": [{"words": "You left the path.", "rule": "off the slab path", "frame": 31, "t_s": 1.0, "drill": "drill-hover"},
-                {"words": "You hit the bridge once.", "rule": "crashes at the pier", "frame": 61, "t_s": 2.0, "drill": "drill-orbit"}],
+            "points": [{"words": "You left the path.", "rule": "off the path in one task", "frame": 31, "t_s": 1.0, "drill": "drill-hover"},
+                {"words": "You hit the bridge once.", "rule": "crashes in one task", "frame": 61, "t_s": 2.0, "drill": "drill-orbit"}],
             "next": {"scenario": "drill-hover", "command": "spandrel train --trainee anna --scenario drill-hover"}
         }))
         .unwrap();

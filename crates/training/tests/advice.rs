@@ -123,7 +123,7 @@ fn exact_crashes_are_listed_with_their_times() {
         }
     });
     let advice = advice(&tape, &[]);
-    let point = point(&advice, "crashes at the pier");
+    let point = point(&advice, "crashes in one task");
     let t_s = first_time_s(&tape, |frame| frame.contact != spandrel_mavlink::contract::contact::ContactKind::None);
     let words = format!("You hit the bridge twice in task 2, at {} and {}: keep your distance.", clock(t_s), clock(t_s + 3.2));
     assert_eq!(point.words, words);
@@ -142,7 +142,7 @@ fn exact_speeding_states_speed_limit_and_moment() {
         tape.fly((35.0, 20.0, 10.0), 3.0);
     });
     let advice = advice(&tape, &[]);
-    let point = point(&advice, "too fast around the pier");
+    let point = point(&advice, "too fast in one task");
     let t_s = first_time_s(&tape, |frame| frame.speed_m_s() > 4.5);
     assert!(point.words.starts_with("You flew up to 7.0 m/s in task 2, over the 4.5 m/s limit for "), "{}", point.words);
     assert!(point.words.ends_with(&format!("from {}: slow down.", clock(point.t_s))), "{}", point.words);
@@ -157,7 +157,7 @@ fn exact_deviation_states_distance_and_the_longest_stretch() {
         tape.fly((35.0, 20.0, 10.0), 2.0);
     });
     let advice = advice(&tape, &[]);
-    let point = point(&advice, "off the pier circle");
+    let point = point(&advice, "off the path in one task");
     let t_s = first_time_s(&tape, |frame| frame.position_m.north() > 23.0);
     // 10 s at 5 m, and 1 s each on the way out and back.
     let words = format!("You left the path in task 2 for 12 s from {}, up to 5.0 m away: return before you go on.", clock(t_s));
@@ -175,7 +175,7 @@ fn exact_tasks_not_flown_point_to_the_end() {
     tape.land();
     let advice = advice(&tape, &[]);
     let last_s = score_tape(&tape, &job()).assessment.end.seconds;
-    let point = point(&advice, "pier not attempted");
+    let point = point(&advice, "task not attempted");
     assert!(point.words.starts_with("You did not fly task 2: the flight ended at "), "{}", point.words);
     assert!((point.t_s - last_s).abs() < MOMENT_TOLERANCE_S, "{point:?} {last_s}");
 }

@@ -14,13 +14,17 @@ A training plan evaluates these rules (`crates/training/src/plan/rules.toml`). A
 scenario. The urgency of a finding is weight × (1 + log2(value / limit)). A scenario's urgency is the sum over its findings. The plan omits scenarios
 with less than 40% of the first one's urgency.
 
-The findings in the last column follow from the rule in the first column if both fire in the same task or session. They are listed as consequences, add
-their urgency to that of their cause, and do not recommend scenarios of their own. If several rules explain a finding, the most urgent one counts.
+The findings of the rules in the last column, or of the rules whose group is there, follow from the rule in the first column if both fire in the same task or
+session. They are listed as consequences, add their urgency to that of their cause, and do not recommend scenarios of their own. If several rules explain
+a finding, the most urgent one counts.
 
 Task rules evaluate each task's latest flight; a rule that requires several tasks evaluates the latest session. Session rules evaluate the latest
 session that has a value. Older incomplete sessions are omitted by default; the latest session always counts. Rules on defects count only the defects of
 tasks that were done. All limits and weights are estimates.
 ";
+
+/// A rule that recommends the drill of the task, of every kind.
+const ONE_TASK_RULE: &str = "task not attempted";
 
 fn keyword(rule: &PlanRule) -> &'static str {
     MEASURES.iter().find(|(_, measure)| *measure == rule.measure).unwrap().0
@@ -52,15 +56,33 @@ fn scope(rule: &PlanRule) -> String {
 
 fn page() -> String {
     let rules = read_rules("rules.toml", DEFAULT_RULES).unwrap();
-    let mut out =
-        format!("{HEAD}\n| rule | measure | scope | more than | weight | scenario | explains |\n|---|---|---|---|---|---|---|\n");
-    for rule in &rules.rules {
-        let explains = rule.explains.join(", ");
-        let row = [&rule.name, &format!("`{}`", keyword(rule)), &scope(rule), &limit(rule), &rule.weight.to_string()];
-        let row: Vec<&str> = row.into_iter().map(String::as_str).collect();
-        let _ = writeln!(out, "| {} | `{}` | {explains} |", row.join(" | "), rule.scenario);
+    let mut out = format!(
+        "{HEAD}\n| rule | group | measure | scope | more than | weight | scenario | explains |\n|---|---|---|---|---|---|---|---|\n"
+    );
+    // A rule that stands for one rule per kind of task has one row.
+    for same in rules.rules.chunk_by(|a, b| a.name == b.name) {
+        let rule = &same[0];
+        let (scope, scenario) = match same.len() {
+            1 => (scope(rule), format!("`{}`", rule.scenario)),
+            _ => (scope(&PlanRule { task: None, ..rule.clone() }), "drill of the task".to_owned()),
+        };
+        let (measure, limit, weight, explains) = (keyword(rule), limit(rule), rule.weight, rule.explains.join(", "));
+        let _ = writeln!(
+            out,
+            "| {} | {} | `{measure}` | {scope} | {limit} | {weight} | {scenario} | {explains} |",
+            rule.name, rule.group
+        );
     }
-    out + &drills(&rules.with_shipped_levels())
+    out + &task_drills(&rules) + &drills(&rules.with_shipped_levels())
+}
+
+/// Returns the section on the drills of the kinds of tasks.
+fn task_drills(rules: &PlanRules) -> String {
+    let mut out = "\n## Drills of the tasks\n\nFor a mistake in one task only, the plan recommends the drill of its kind.\n\n| kind of task | drill |\n|---|---|\n".to_owned();
+    for rule in rules.rules.iter().filter(|rule| rule.name == ONE_TASK_RULE) {
+        let _ = writeln!(out, "| `{}` | `{}` |", rule.task.unwrap(), rule.scenario);
+    }
+    out
 }
 
 /// Returns the section on the drills: their criteria and difficulty levels.

@@ -5,7 +5,7 @@
 
 use spandrel_text::Language;
 use spandrel_training::cohort::{Cohort, Comparison, Selection, cohort, tables};
-use spandrel_training::plan::{DEFAULT_RULES, plan, read_rules};
+use spandrel_training::plan::{DEFAULT_RULES, PlanReason, plan, read_rules};
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 
 const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
@@ -15,7 +15,7 @@ const PAGE: &str = include_str!("../../../docs/src/measured/paper-cohort.md");
 const MAX_OFF_PATH_SHARE: f64 = 0.1;
 const MAX_SPEEDING_SHARE: f64 = 0.02;
 const RULES_OF_THE_INTERLAYER: [&str; 4] =
-    ["off the interlayer path", "too fast in the interlayer", "crashes in the interlayer", "interlayer not attempted"];
+    ["off the path in one task", "too fast in the interlayer", "crashes in one task", "task not attempted"];
 
 fn records() -> Vec<SessionRecord> {
     RECORDS.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -107,8 +107,8 @@ fn val_only_poor_interlayer_flights_are_found_in_the_plan() {
         let whole = spandrel_training::plan::PlanRules { steps: 20, focus: 0.0, ..rules.clone() };
         let plan = plan(std::slice::from_ref(&record), &whole, record.started_unix_us, Language::English).unwrap();
         // A finding that follows from a fault in all tasks is listed with its cause, whose drill is another one.
-        let about_the_task = |rule: &str| RULES_OF_THE_INTERLAYER.contains(&rule);
-        let found: Vec<_> = plan.steps.iter().flat_map(|step| &step.reasons).filter(|one| about_the_task(&one.rule)).collect();
+        let about_the_task = |one: &&PlanReason| RULES_OF_THE_INTERLAYER.contains(&one.rule.as_str()) && one.tasks == [task.id];
+        let found: Vec<_> = plan.steps.iter().flat_map(|step| &step.reasons).filter(about_the_task).collect();
         assert_eq!(!found.is_empty(), !holds, "{}: {task:?}", record.id);
         if !holds {
             assert!(found.iter().all(|reason| reason.words.contains(&task.name)));

@@ -210,6 +210,30 @@ advice-drifting-pictures =
            *[other] zuerst bei
         }
     } { $at }: Lassen Sie sie vor jedem Bild zur Ruhe kommen.
+advice-turning-pictures =
+    { $taken ->
+        [one] Bei Ihrem einzigen Bild haben Sie gedreht, bei
+       *[other] Bei { $count ->
+            [one] einem
+           *[other] { $count }
+        } Ihrer { $taken } Bilder haben Sie gedreht, { $count ->
+            [one] bei
+           *[other] zuerst bei
+        }
+    } { $at }: Halten Sie die Richtung, bis das Bild aufgenommen ist.
+advice-unlit-pictures =
+    { $count ->
+        [one] Bei einem Bild{ $place ->
+        [task] {" "}von Aufgabe { $tasks }
+        [tasks] {" "}der Aufgaben { $tasks }
+       *[none] {""}
+    } war die Lampe aus, bei
+       *[other] Bei { $count } Bildern{ $place ->
+        [task] {" "}von Aufgabe { $tasks }
+        [tasks] {" "}der Aufgaben { $tasks }
+       *[none] {""}
+    } war die Lampe aus, zuerst bei
+    } { $at }: Schalten Sie sie vor dem Bild ein.
 advice-pictures-of-nothing = { $taken ->
         [one] Auf Ihrem einzigen Bild, bei { $at }, ist kein neuer Schaden zu sehen
        *[other] Auf { $count } Ihrer { $taken } Bilder ist kein neuer Schaden zu sehen, { $count ->
@@ -230,6 +254,7 @@ advice-not-covered = Sie haben nur { $shares } { $place ->
     } bei { $at } verlassen: Fliegen Sie jede Bahn bis zum Ende.
 advice-overtime = Sie sind { $flown } geflogen, { $over } länger als für die volle Punktzahl erlaubt; die Zeit war bei { $at } um: Planen Sie die Reihenfolge der Aufgaben.
 advice-slow = Sie sind { $flown } geflogen; bei Inspektionsgeschwindigkeit braucht dieser Auftrag { $needed }, die bei { $at } um waren: Verweilen Sie nicht, wo nichts zu sehen ist.
+advice-landing = Ihre Landung dauerte { $took } ab dem letzten Anflug bei { $at }: Sinken Sie stetig und setzen Sie auf.
 advice-not-landed = Ihr Flug endete bei { $at }, { $away } m vom Landeplatz: Fliegen Sie zurück und landen Sie dort.
 advice-battery-low = Am Ende waren noch { $left }% Akku übrig; die Reserve von { $reserve }% war bei { $at } erreicht: Kehren Sie früher um.
 advice-time-up = Ihre Zeit war bei { $at } um, { $away } m vom Landeplatz: Kehren Sie früher um.

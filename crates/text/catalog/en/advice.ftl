@@ -210,6 +210,27 @@ advice-drifting-pictures =
            *[other] first at
         }
     } { $at }: let it come to rest first.
+advice-turning-pictures =
+    { $taken ->
+        [one] You were turning when you took your only picture, at
+       *[other] You were turning in { $count } of { $taken } pictures, { $count ->
+            [one] at
+           *[other] first at
+        }
+    } { $at }: hold the heading until the picture is taken.
+advice-unlit-pictures =
+    { $count ->
+        [one] The lamp was off in one picture{ $place ->
+        [task] {" "}in task { $tasks }
+        [tasks] {" "}in tasks { $tasks }
+       *[none] {""}
+    }, at
+       *[other] The lamp was off in { $count } pictures{ $place ->
+        [task] {" "}in task { $tasks }
+        [tasks] {" "}in tasks { $tasks }
+       *[none] {""}
+    }, first at
+    } { $at }: switch it on before the picture.
 advice-pictures-of-nothing = { $taken ->
         [one] Your only picture, at { $at }, shows no new defect
        *[other] { $count } of your { $taken } pictures { $count ->
@@ -231,6 +252,7 @@ advice-not-covered = You flew only { $shares } of { $place ->
     } at { $at }: fly each path to its end.
 advice-overtime = You flew for { $flown }, { $over } longer than full points allow; the time was up at { $at }: plan the order of the tasks.
 advice-slow = You flew for { $flown }; this job needs { $needed } at inspection speed, which were over at { $at }: don't linger where there is nothing to see.
+advice-landing = Your landing took { $took } from your last approach at { $at }: descend steadily and touch down.
 advice-not-landed = Your flight ended at { $at }, { $away } m from the pad: fly back and land on it.
 advice-battery-low = You ended with { $left }% battery; the { $reserve }% reserve was reached at { $at }: turn back earlier.
 advice-time-up = Your time was up at { $at }, { $away } m from the pad: turn back earlier.

@@ -204,6 +204,27 @@ advice-drifting-pictures =
            *[other] la primera a los
         }
     } { $at }: espere a que se detenga antes de cada foto.
+advice-turning-pictures =
+    { $taken ->
+        [one] Estaba girando cuando tomó su única foto, a los
+       *[other] Estaba girando en { $count } de { $taken } fotos, { $count ->
+            [one] a los
+           *[other] la primera a los
+        }
+    } { $at }: mantenga el rumbo hasta tomar la foto.
+advice-unlit-pictures =
+    { $count ->
+        [one] La lámpara estaba apagada en una foto{ $place ->
+        [task] {" "}de la tarea { $tasks }
+        [tasks] {" "}de las tareas { $tasks }
+       *[none] {""}
+    }, a los
+       *[other] La lámpara estaba apagada en { $count } fotos{ $place ->
+        [task] {" "}de la tarea { $tasks }
+        [tasks] {" "}de las tareas { $tasks }
+       *[none] {""}
+    }, la primera a los
+    } { $at }: enciéndala antes de la foto.
 advice-pictures-of-nothing = { $taken ->
         [one] Su única foto, a los { $at }, no muestra ningún defecto nuevo
        *[other] { $count } de sus { $taken } fotos { $count ->
@@ -224,6 +245,7 @@ advice-not-covered = Recorrió solo { $shares } { $place ->
     } a los { $at }: recorra cada trayectoria hasta el final.
 advice-overtime = Voló durante { $flown }, { $over } más de lo que permite la puntuación completa; el tiempo se cumplió a los { $at }: planifique el orden de las tareas.
 advice-slow = Voló durante { $flown }; a velocidad de inspección, este trabajo necesita { $needed }, que se cumplieron a los { $at }: no se demore donde no hay nada que ver.
+advice-landing = Su aterrizaje duró { $took } desde la última aproximación, a los { $at }: descienda de forma constante y tome tierra.
 advice-not-landed = Su vuelo terminó a los { $at }, a { $away } m de la plataforma de aterrizaje: regrese y aterrice en ella.
 advice-battery-low = Terminó con { $left }% de batería; la reserva de { $reserve }% se alcanzó a los { $at }: regrese antes.
 advice-time-up = Su tiempo se agotó a los { $at }, a { $away } m de la plataforma de aterrizaje: regrese antes.

@@ -252,6 +252,7 @@ fn task_sentence(measure: TaskMeasure, rule: &PlanRule, tasks: &[u32], scan: &Fl
         TaskMeasure::StickReversals => technique::reversals(scan, tasks, &[0, 1, 2]),
         TaskMeasure::YawReversals => technique::reversals(scan, tasks, &[3]),
         TaskMeasure::StickJumps => technique::jumps(scan, tasks),
+        TaskMeasure::UnlitPictures => pictures::unlit(scan, tasks),
         TaskMeasure::MissedAtTask => pictures::none_found(scan, tasks),
     }
 }
@@ -272,6 +273,8 @@ fn session_sentence(measure: SessionMeasure, rule: &PlanRule, scan: &FlightScan<
         SessionMeasure::MovingPictures => pictures::in_motion(scan),
         SessionMeasure::DriftingPictures => pictures::while_drifting(scan),
         SessionMeasure::Overtime => session_end::overtime(scan),
+        SessionMeasure::TurningPictures => pictures::while_turning(scan),
+        SessionMeasure::Landing => session_end::landing(scan),
         SessionMeasure::Slow => session_end::slow(scan),
         SessionMeasure::NotLanded => session_end::not_landed(scan),
         SessionMeasure::BatteryLow => session_end::battery_low(scan),

@@ -3,7 +3,7 @@
 use super::flight_scan::{FlightScan, MissedDefect};
 use super::wording::{Place, Sentence};
 use crate::plan::MIN_SEVERE_CONDITION_STATE;
-use crate::record::{DefectRecord, is_drifting, is_in_motion};
+use crate::record::{DefectRecord, is_drifting, is_in_motion, is_turning};
 use crate::time_text::clock;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_monitor::measures::attention::Snapshot;
@@ -101,22 +101,37 @@ pub(super) fn none_found(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence>
 
 /// Pictures taken in motion.
 pub(super) fn in_motion(scan: &FlightScan<'_>) -> Option<Sentence> {
-    let (first, count, taken) = pictures_in(scan, is_in_motion)?;
+    let (first, count, taken) = pictures_in(scan, |_, frame| is_in_motion(frame))?;
     let at = clock(scan.t_s(first));
     Some((text!(scan.language, "advice-moving-pictures", count = count, taken = taken, at = at), first))
 }
 
 /// Pictures taken while the drone drifted.
 pub(super) fn while_drifting(scan: &FlightScan<'_>) -> Option<Sentence> {
-    let (first, count, taken) = pictures_in(scan, is_drifting)?;
+    let (first, count, taken) = pictures_in(scan, |_, frame| is_drifting(frame))?;
     let at = clock(scan.t_s(first));
     Some((text!(scan.language, "advice-drifting-pictures", count = count, taken = taken, at = at), first))
 }
 
+/// Pictures taken while the pilot turned the drone.
+pub(super) fn while_turning(scan: &FlightScan<'_>) -> Option<Sentence> {
+    let (first, count, taken) = pictures_in(scan, |_, frame| is_turning(frame))?;
+    let at = clock(scan.t_s(first));
+    Some((text!(scan.language, "advice-turning-pictures", count = count, taken = taken, at = at), first))
+}
+
+/// Pictures in the dark with the lamp off.
+pub(super) fn unlit(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let (first, count, _) = pictures_in(scan, |index, frame| !frame.light && scan.near(index, &tasks).is_some())?;
+    let (Place { kind, tasks }, at) = (Place::of(scan, ids), clock(scan.t_s(first)));
+    Some((text!(scan.language, "advice-unlit-pictures", count = count, place = kind, tasks = tasks, at = at), first))
+}
+
 /// Returns the first of the pictures in such frames, and the numbers of these and of all pictures; `None` if there is no such picture.
-fn pictures_in(scan: &FlightScan<'_>, is_meant: fn(&Frame) -> bool) -> Option<(usize, usize, usize)> {
+fn pictures_in(scan: &FlightScan<'_>, is_meant: impl Fn(usize, &Frame) -> bool) -> Option<(usize, usize, usize)> {
     let taken = || scan.frames().iter().enumerate().filter(|(_, frame)| frame.snapshot);
-    let meant = || taken().filter(|(_, frame)| is_meant(frame));
+    let meant = || taken().filter(|(index, frame)| is_meant(*index, frame));
     let (first, _) = meant().next()?;
     Some((first, meant().count(), taken().count()))
 }

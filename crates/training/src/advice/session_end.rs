@@ -4,6 +4,7 @@ use super::flight_scan::FlightScan;
 use super::wording::{Place, Sentence, listed};
 use crate::plan::BATTERY_RESERVE_PCT;
 use crate::record::TaskRecord;
+use crate::record::is_near_pad;
 use crate::time_text::{clock, duration};
 use spandrel_monitor::session::EndReason;
 use spandrel_text::text;
@@ -45,6 +46,14 @@ pub(super) fn slow(scan: &FlightScan<'_>) -> Option<Sentence> {
     let (flown, needed, at) = (duration(time.flown_s), duration(time.needed_s), clock(time.needed_s));
     let words = text!(scan.language, "advice-slow", flown = flown, needed = needed, at = at);
     Some((words, scan.frame_at(time.needed_s)))
+}
+
+/// Time at the landing pad. The moment is the last approach.
+pub(super) fn landing(scan: &FlightScan<'_>) -> Option<Sentence> {
+    let away = scan.frames().iter().rposition(|frame| !is_near_pad(scan.evidence.scenario, frame))?;
+    let (last, _) = end(scan);
+    let took = duration(scan.t_s(last) - scan.t_s(away));
+    Some((text!(scan.language, "advice-landing", took = took, at = clock(scan.t_s(away))), away))
 }
 
 pub(super) fn not_landed(scan: &FlightScan<'_>) -> Option<Sentence> {

@@ -21,6 +21,9 @@ const MIN_OFF_PATH_FRACTION: f64 = 0.1;
 /// Minimum number of defects of a kind for a fraction of them to be meaningful (estimate: one missed defect is chance).
 const MIN_DEFECTS: usize = 2;
 
+/// Minimum number of pictures for the fraction of those taken in motion to be meaningful (estimate: of fewer, one is chance).
+const MIN_PICTURES: usize = 4;
+
 /// A measured value and its source flight.
 #[derive(Clone, Copy)]
 pub(super) struct Finding<'a> {
@@ -141,6 +144,7 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
         TaskMeasure::StickReversals => near.map(|near| near.stick_reversals_per_min),
         TaskMeasure::YawReversals => near.map(|near| near.yaw_reversals_per_min),
         TaskMeasure::StickJumps => near?.stick_jumps_per_min,
+        TaskMeasure::UnlitPictures => near?.unlit_pictures,
         TaskMeasure::MissedAtTask => {
             let searched = task.state == Some(TaskState::Done) && task.defects_placed >= MIN_DEFECTS;
             searched.then(|| 1.0 - task.defects_found as f64 / task.defects_placed as f64)
@@ -150,6 +154,7 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
 
 fn session_value(rule: &PlanRule, measure: SessionMeasure, record: &SessionRecord) -> Option<f64> {
     let yes = |is: bool| Some(f64::from(u8::from(is)));
+    let has_pictures = record.snapshots >= MIN_PICTURES;
     let share = |part: usize, whole: usize| (whole > 0).then(|| part as f64 / whole as f64);
     let missed_of = |least: usize, about: fn(&DefectRecord) -> bool| {
         let (missed, all) = searched(record)
@@ -191,8 +196,10 @@ fn session_value(rule: &PlanRule, measure: SessionMeasure, record: &SessionRecor
         SessionMeasure::NotLanded => yes(record.end_reason != "landed"),
         SessionMeasure::BatteryLow => yes(record.battery_at_end_pct < BATTERY_RESERVE_PCT),
         SessionMeasure::BatteryFailed => yes(record.battery_failed),
-        SessionMeasure::MovingPictures => record.technique?.moving_pictures,
-        SessionMeasure::DriftingPictures => record.technique?.drifting_pictures,
+        SessionMeasure::MovingPictures => record.technique?.moving_pictures.filter(|_| has_pictures),
+        SessionMeasure::DriftingPictures => record.technique?.drifting_pictures.filter(|_| has_pictures),
+        SessionMeasure::TurningPictures => record.technique?.turning_pictures.filter(|_| has_pictures),
+        SessionMeasure::Landing => record.technique?.landing_s,
         SessionMeasure::Slow => {
             let efficiency = record.certification.as_ref()?.scores.efficiency;
             record.is_complete().then(|| 1.0 - efficiency / 100.0)

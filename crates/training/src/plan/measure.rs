@@ -50,6 +50,8 @@ pub enum TaskMeasure {
     YawReversals,
     /// Jumps of the forward, right and up sticks per minute near the path.
     StickJumps,
+    /// Fraction of the pictures near the path of a dark task that were taken with the lamp off.
+    UnlitPictures,
     /// Fraction of a done task's defects not shown in any picture, if it has at least two.
     MissedAtTask,
 }
@@ -77,10 +79,14 @@ pub enum SessionMeasure {
     NoPictures,
     /// Fraction of pictures that show no new defect.
     FalseSnapshots,
-    /// Fraction of pictures taken above 0.5 m/s.
+    /// Fraction of pictures taken above 0.5 m/s, if there are at least four.
     MovingPictures,
-    /// Fraction of pictures taken at 0.2 to 0.5 m/s.
+    /// Fraction of pictures taken at 0.2 to 0.5 m/s, if there are at least four.
     DriftingPictures,
+    /// Fraction of pictures taken while turning, if there are at least four.
+    TurningPictures,
+    /// Time near the landing pad before the end of the flight, s.
+    Landing,
     /// Flight time beyond the time for full efficiency, min.
     Overtime,
     /// Flight time beyond what the job needs, as the fraction of the certification's efficiency that is lost.
@@ -135,6 +141,7 @@ pub const MEASURES: &[(&str, RuleMeasure)] = &[
     ("stick_reversals", RuleMeasure::Task(TaskMeasure::StickReversals)),
     ("yaw_reversals", RuleMeasure::Task(TaskMeasure::YawReversals)),
     ("stick_jumps", RuleMeasure::Task(TaskMeasure::StickJumps)),
+    ("unlit_pictures", RuleMeasure::Task(TaskMeasure::UnlitPictures)),
     ("missed_at_task", RuleMeasure::Task(TaskMeasure::MissedAtTask)),
     ("crashes_outside", RuleMeasure::Session(SessionMeasure::CrashesOutside)),
     ("crashes_all", RuleMeasure::Session(SessionMeasure::CrashesAll)),
@@ -148,6 +155,8 @@ pub const MEASURES: &[(&str, RuleMeasure)] = &[
     ("false_snapshots", RuleMeasure::Session(SessionMeasure::FalseSnapshots)),
     ("moving_pictures", RuleMeasure::Session(SessionMeasure::MovingPictures)),
     ("drifting_pictures", RuleMeasure::Session(SessionMeasure::DriftingPictures)),
+    ("turning_pictures", RuleMeasure::Session(SessionMeasure::TurningPictures)),
+    ("landing", RuleMeasure::Session(SessionMeasure::Landing)),
     ("overtime", RuleMeasure::Session(SessionMeasure::Overtime)),
     ("slow", RuleMeasure::Session(SessionMeasure::Slow)),
     ("not_landed", RuleMeasure::Session(SessionMeasure::NotLanded)),
@@ -176,6 +185,7 @@ impl TaskMeasure {
             | Self::BesidePath
             | Self::LowClearance
             | Self::LampOff
+            | Self::UnlitPictures
             | Self::MissedAtTask => MeasureUnit::Fraction,
             Self::OffHeight
             | Self::TooFar
@@ -201,8 +211,9 @@ impl SessionMeasure {
             | Self::FalseSnapshots
             | Self::MovingPictures
             | Self::DriftingPictures
+            | Self::TurningPictures
             | Self::Slow => MeasureUnit::Fraction,
-            Self::MissedInView | Self::Exposure => MeasureUnit::Seconds,
+            Self::MissedInView | Self::Exposure | Self::Landing => MeasureUnit::Seconds,
             Self::Overtime => MeasureUnit::Minutes,
             Self::CrashesOutside
             | Self::CrashesAll

@@ -48,6 +48,7 @@ fn set_task(task: &mut TaskRecord, measure: TaskMeasure, value: f64, crashes: Cr
         TaskMeasure::StickReversals => technique.stick_reversals_per_min = value,
         TaskMeasure::YawReversals => technique.yaw_reversals_per_min = value,
         TaskMeasure::StickJumps => technique.stick_jumps_per_min = Some(value),
+        TaskMeasure::UnlitPictures => technique.unlit_pictures = Some(value),
         TaskMeasure::MissedAtTask => {
             (task.state, task.defects_placed, task.defects_found) =
                 (Some(TaskState::Done), 100, (100.0 * (1.0 - value)).round() as usize);
@@ -87,6 +88,8 @@ fn set_session(record: &mut SessionRecord, rule: &PlanRule, measure: SessionMeas
         SessionMeasure::NoPictures => record.snapshots = if over { 0 } else { 10 },
         SessionMeasure::FalseSnapshots => (record.snapshots, record.hits) = (1000, (1000.0 * (1.0 - value)).round() as usize),
         SessionMeasure::MovingPictures => record.technique.as_mut().unwrap().moving_pictures = Some(value),
+        SessionMeasure::TurningPictures => record.technique.as_mut().unwrap().turning_pictures = Some(value),
+        SessionMeasure::Landing => record.technique.as_mut().unwrap().landing_s = Some(value),
         SessionMeasure::DriftingPictures => record.technique.as_mut().unwrap().drifting_pictures = Some(value),
         SessionMeasure::Slow => record.certification = Some(certification_with_efficiency(100.0 * (1.0 - value))),
         SessionMeasure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
@@ -166,12 +169,12 @@ fn exact_cause_outranks_its_consequences() {
     record.tasks[1].speeding_s = 30.0;
     record.tasks[1].technique.as_mut().unwrap().contacts.bridge = 20;
     let (scenario, causes, effects) = first_step(record.clone());
-    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["too fast under the arch".to_owned()]));
-    assert_eq!(effects, ["crashes under the arch"]);
+    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["too fast in one task".to_owned()]));
+    assert_eq!(effects, ["crashes in one task"]);
     // Speeding in another task explains nothing here.
     (record.tasks[1].speeding_s, record.tasks[0].speeding_s) = (0.0, 30.0);
     let (scenario, causes, effects) = first_step(record);
-    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["crashes under the arch".to_owned()]));
+    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["crashes in one task".to_owned()]));
     assert!(effects.is_empty());
 }
 
@@ -212,7 +215,7 @@ fn exact_records_before_format_4_use_unmerged_crashes() {
     record.tasks.iter_mut().for_each(|task| task.technique = None);
     record.tasks[1].crashes.bridge = 3;
     let (scenario, causes, _) = first_step(record);
-    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["crashes under the arch".to_owned()]));
+    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["crashes in one task".to_owned()]));
 }
 
 #[test]
@@ -233,7 +236,7 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
     let plan = plan(&[record], &rules(), NOW, Language::English).unwrap();
     assert_eq!(plan.steps[0].scenario, "drill-gap");
     let words = &plan.steps[0].reasons[0].words;
-    assert_eq!(words, "The interlayer: off the path for 70% of the time, mainly vertically. Practice flying in tight spaces.");
+    assert_eq!(words, "The interlayer: off the path for 70% of the time, mainly vertically. Practice following the path.");
     assert_eq!(plan.steps[1].scenario, "drill-straight-line");
 }
 
@@ -297,8 +300,8 @@ fn exact_incomplete_drill_does_not_meet_its_criterion() {
 #[test]
 fn exact_scenarios_far_less_urgent_than_the_first_are_omitted() {
     let mut record = perfect_record("anna", 1);
-    // Urgencies: 1.5 (1 + log2 7) = 5.7 for the interlayer, 1 + log2 1.5 = 1.6 for the slab.
-    (record.tasks[2].on_path, record.tasks[0].on_path) = (0.3, 0.85);
+    // Urgencies: 1 + log2 7 = 3.8 for the interlayer, 1 + log2 1.2 = 1.3 for the slab.
+    (record.tasks[2].on_path, record.tasks[0].on_path) = (0.3, 0.88);
     let names = |focus: f64| {
         let plan = plan(std::slice::from_ref(&record), &PlanRules { focus, ..rules() }, NOW, Language::English).unwrap();
         plan.steps.into_iter().map(|step| step.scenario).collect::<Vec<_>>()
@@ -381,8 +384,8 @@ fn regress_unflown_task_keeps_the_advice_of_its_last_flight() {
     (now.tasks[1].attempted, now.tasks[1].covered) = (false, Some(0.0));
     now.tasks[1].technique = Some(crate::record::TaskTechnique::default());
     let plan = plan(&[before, now], &rules(), NOW, Language::English).unwrap();
-    assert_eq!(reason_of(&plan, "off the arch path").unwrap().1.session, "session-anna-001");
-    assert_eq!(reason_of(&plan, "arch not attempted").unwrap().1.session, "session-anna-002");
+    assert_eq!(reason_of(&plan, "off the path in one task").unwrap().1.session, "session-anna-001");
+    assert_eq!(reason_of(&plan, "task not attempted").unwrap().1.session, "session-anna-002");
 }
 
 #[test]
@@ -572,7 +575,7 @@ fn exact_without_findings_the_flown_job_is_next_and_drills_lead_to_the_whole_job
 
 #[test]
 fn exact_rule_for_the_drill_of_the_task_needs_a_task() {
-    let name = "name = \"member not inspected\"\n";
+    let name = "name = \"task not attempted\"\n";
     assert!(DEFAULT_RULES.contains(name));
     let wrong = DEFAULT_RULES.replace(name, &format!("{name}in_tasks = 2\n"));
     assert!(read_rules("rules.toml", &wrong).unwrap_err().to_string().contains("this rule has no task"));

@@ -28,6 +28,10 @@ const JUMP: f64 = 0.1;
 /// Deflection from which a stick isn't centered, as a fraction of that travel (estimate). To let go of a stick or to start a movement
 /// with a key is no jump.
 const DEFLECTED: f64 = 0.02;
+/// Yaw stick deflection above which a picture is taken while turning, as a fraction of that travel (estimate: the deadband of the sticks).
+const TURNING: f64 = 0.1;
+/// Horizontal distance from the landing pad within which the pilot lands, m (estimate).
+const LANDING_RADIUS_M: f64 = 10.0;
 /// Lower and upper quantile between which a spread is measured: a short excursion doesn't count.
 const SPREAD_QUANTILES: (f64, f64) = (0.1, 0.9);
 /// Distance within which the nearest position on a path counts as its end, m.
@@ -73,6 +77,10 @@ pub struct TaskTechnique {
     /// travel from one frame to the next, between two deflected positions. `None` in records before format 9.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stick_jumps_per_min: Option<f64>,
+    /// Fraction of the pictures near the path that were taken with the lamp off, 0 to 1; `None` if the task needs no lamp, without
+    /// pictures there, and in records before format 9.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unlit_pictures: Option<f64>,
     /// Contacts within the task's window, merged if they are less than a second apart.
     pub contacts: Crashes,
     /// Speed of the fastest of these contacts, m/s; 0 without contacts.
@@ -94,6 +102,14 @@ pub struct SessionTechnique {
     /// records before format 9.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drifting_pictures: Option<f64>,
+    /// Fraction of the pictures that were taken while the yaw stick was deflected, 0 to 1; `None` without pictures, and in records
+    /// before format 9.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turning_pictures: Option<f64>,
+    /// Time from the last approach to within 10 m of the landing pad, measured horizontally, to the end of the flight, s; `None` if the
+    /// drone never left that circle, and in records before format 9.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub landing_s: Option<f64>,
 }
 
 /// Samples of one task, in frame order.
@@ -107,6 +123,8 @@ struct NearSamples {
     sticks: [ReversalCounter; 4],
     latest_sticks: Option<[f64; 4]>,
     jumps: usize,
+    pictures: usize,
+    unlit_pictures: usize,
 }
 
 /// Counts the reversals of one stick axis.
@@ -166,6 +184,8 @@ pub(super) fn session(source: &RecordSource<'_>) -> SessionTechnique {
         exposure_s: certification.exposure_s,
         moving_pictures: share_of_pictures(&source.assessed_session.frames, is_in_motion),
         drifting_pictures: share_of_pictures(&source.assessed_session.frames, is_drifting),
+        turning_pictures: share_of_pictures(&source.assessed_session.frames, is_turning),
+        landing_s: landing_s(source),
     }
 }
 
@@ -177,6 +197,23 @@ pub fn is_in_motion(frame: &Frame) -> bool {
 /// Returns whether a picture in this frame is taken while the drone drifts.
 pub fn is_drifting(frame: &Frame) -> bool {
     !frame.missing && frame.speed_m_s() > DRIFTING_M_S && !is_in_motion(frame)
+}
+
+/// Returns whether the drone turns in this frame because of the pilot.
+pub fn is_turning(frame: &Frame) -> bool {
+    frame.sticks[3].abs() > TURNING
+}
+
+/// Returns whether the drone is near enough to the landing pad to land there.
+pub fn is_near_pad(scenario: &Scenario, frame: &Frame) -> bool {
+    (frame.position_m - scenario.ground_team.pad_m).horizontal_norm() <= LANDING_RADIUS_M
+}
+
+/// Returns the time since the last approach to the landing pad; `None` if the drone never left its surroundings.
+fn landing_s(source: &RecordSource<'_>) -> Option<f64> {
+    let frames = &source.assessed_session.frames;
+    let away = frames.iter().rposition(|frame| !is_near_pad(source.scenario, frame))?;
+    Some((frames.len() - 1 - away) as f64 / source.scenario.scoring.frame_rate_hz)
 }
 
 /// Returns the fraction of the pictures that were taken in such frames; `None` without pictures.
@@ -289,6 +326,8 @@ impl NearSamples {
         self.heights_m.extend(near.height_error_m(tasks));
         self.low_clearance += usize::from(frame.clearance_m.is_some_and(|clearance| clearance < clearance_m));
         self.lamp_off += usize::from(!frame.light);
+        self.pictures += usize::from(frame.snapshot);
+        self.unlit_pictures += usize::from(frame.snapshot && !frame.light);
         for (counter, position) in self.sticks.iter_mut().zip(frame.sticks) {
             counter.add(position);
         }
@@ -315,6 +354,7 @@ impl NearSamples {
             stick_reversals_per_min: per_min(forward + right + up),
             yaw_reversals_per_min: per_min(yaw),
             stick_jumps_per_min: Some(per_min(self.jumps)),
+            unlit_pictures: (task.dark && self.pictures > 0).then(|| self.unlit_pictures as f64 / self.pictures as f64),
             contacts: Crashes::default(),
             fastest_contact_m_s: 0.0,
         }
