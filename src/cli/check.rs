@@ -7,6 +7,7 @@ use spandrel_model::scenario;
 use spandrel_model::site::defects;
 use spandrel_model::toml::{Problem, split_displayed};
 use spandrel_model::vehicle;
+use spandrel_text::Language;
 use spandrel_training::scenario_check::{self, CheckOptions, Findings, ScenarioText};
 
 /// Check scenario and vehicle files
@@ -51,7 +52,7 @@ pub struct Args {
 /// Returns an error if a file is invalid.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let aircraft = files::vehicle(&args.vehicle)?.vehicle;
-    let options = CheckOptions { aircraft: &aircraft, may_continue: &|| true };
+    let options = CheckOptions { aircraft: &aircraft, may_continue: &|| true, language: Language::English };
     let mut findings = Findings::default();
     for file in &args.files {
         match files::any_source(&files::with_variant(file, args.form.as_deref(), args.level)) {

@@ -114,9 +114,9 @@ fn place_defect(
 
 fn checked(state: &ServerState, text: String, begun: Stopwatch, language: Language) -> Result<CheckedScenario, WebError> {
     let aircraft = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
-    let options = CheckOptions { aircraft: &aircraft, may_continue: &|| begun.elapsed() < CHECK_TIME };
+    let options = CheckOptions { aircraft: &aircraft, may_continue: &|| begun.elapsed() < CHECK_TIME, language };
     let siblings = |name: &str| read_from_folder(&state.scenarios, name);
-    Ok(check_text(&file_name(&text), (text, &siblings), &options, language))
+    Ok(check_text(&file_name(&text), (text, &siblings), &options))
 }
 
 /// Returns the file name for messages and downloads.

@@ -3,6 +3,7 @@
 
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::measures::on_path::ReferencePaths;
+use spandrel_text::{Language, text};
 
 /// Share of a path within another task's threshold above which `check` warns (estimate: more than two paths share where they cross).
 pub const MAX_SHARE: f64 = 0.1;
@@ -38,20 +39,21 @@ fn share_within(paths: &ReferencePaths, task: usize, other: usize) -> f64 {
 }
 
 /// Returns a warning for each overlap of more than [`MAX_SHARE`] of a path. Equal paths have their own warning.
-pub(crate) fn warnings(file: &str, scenario: &Scenario) -> Vec<String> {
+pub(crate) fn warnings(file: &str, scenario: &Scenario, language: Language) -> Vec<String> {
     let tasks = &scenario.tasks;
     let words = |overlap: &Overlap| {
         let (task, other) = (&tasks[overlap.task], &tasks[overlap.other]);
-        format!(
-            "{file}: {:.0}% of the path of task {} '{}' is within the threshold ({} m) of task {} '{}', so that a flight along it counts \
-             for both tasks: move the paths apart, or reduce threshold_m",
-            100.0 * overlap.share,
-            task.id,
-            task.name,
-            other.threshold_m,
-            other.id,
-            other.name
-        )
+        let words = text!(
+            language,
+            "check-overlap",
+            share = format!("{:.0}", 100.0 * overlap.share),
+            task = task.id,
+            name = task.name.as_str(),
+            threshold = other.threshold_m.to_string(),
+            other = other.id,
+            othername = other.name.as_str()
+        );
+        format!("{file}: {words}")
     };
     let is_copy = |overlap: &&Overlap| tasks[overlap.task].path_m == tasks[overlap.other].path_m;
     above(scenario, MAX_SHARE).iter().filter(|overlap| !is_copy(overlap)).map(words).collect()
@@ -93,7 +95,7 @@ mod tests {
 
     #[test]
     fn exact_warning_names_both_tasks_and_the_share() {
-        let text = warnings("a.toml", &two_lines(2.5, 20.0, 3.0));
+        let text = warnings("a.toml", &two_lines(2.5, 20.0, 3.0), Language::English);
         assert_eq!(
             text,
             [
@@ -102,8 +104,12 @@ mod tests {
             ]
         );
         // 3 of 51 points, 6 %.
-        assert_eq!(warnings("a.toml", &two_lines(2.5, 40.0, 3.0)), Vec::<String>::new());
-        assert_eq!(warnings("a.toml", &two_lines(0.0, 0.0, 3.0)), Vec::<String>::new(), "equal paths have their own warning");
+        assert_eq!(warnings("a.toml", &two_lines(2.5, 40.0, 3.0), Language::English), Vec::<String>::new());
+        assert_eq!(
+            warnings("a.toml", &two_lines(0.0, 0.0, 3.0), Language::English),
+            Vec::<String>::new(),
+            "equal paths have their own warning"
+        );
     }
 
     #[test]

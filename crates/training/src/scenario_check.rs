@@ -3,7 +3,9 @@
 //! scenario editor show the results.
 
 use crate::path_overlap;
-use spandrel_model::elements::Element;
+use crate::plan::level_settings;
+use crate::terms::element_title;
+use spandrel_model::elements::{Element, ElementUnit};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::ElementQuantity;
 use spandrel_model::scenario::{self, BatteryModel, Bridge, PlacedDefect, Scenario, SiblingLoader, Task, places};
@@ -14,7 +16,7 @@ use spandrel_model::toml::Problem;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::measures::image_quality;
 use spandrel_monitor::score::certification::{job_time, pictures, requirements};
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Minimum clearance between the path and obstacles, in addition to half the aircraft's tip-to-tip width, m (issue 2,
 /// section 2).
@@ -46,13 +48,15 @@ pub struct ScenarioText<'a> {
     pub siblings: SiblingLoader<'a>,
 }
 
-/// The aircraft that has to fit, and the limit of the work.
+/// The aircraft that has to fit, the limit of the work, and the language of the results.
 #[derive(Clone, Copy)]
 pub struct CheckOptions<'a> {
     /// Aircraft for the clearance check.
     pub aircraft: &'a Vehicle,
     /// Asked before each step that may take long. If it returns false, the remaining steps are skipped.
     pub may_continue: &'a dyn Fn() -> bool,
+    /// Language of warnings and notes. Problems are in English, in sentences that the web pages can translate.
+    pub language: Language,
 }
 
 impl ScenarioText<'_> {
@@ -69,11 +73,11 @@ pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &
         findings.warnings.extend(placed_defect_warnings(source, scenario, &site, options));
     }
     findings.warnings.extend(missing_defects_warning(source, scenario, options));
-    findings.warnings.extend(repeated_paths(source, scenario));
-    findings.warnings.extend(path_overlap::warnings(source.file, scenario));
-    findings.warnings.extend(unused_temperature(source, scenario));
-    findings.notes.extend(quantity_notes(source, scenario));
-    findings.notes.extend(certification_notes(source, scenario, options.aircraft));
+    findings.warnings.extend(repeated_paths(source, scenario, options.language));
+    findings.warnings.extend(path_overlap::warnings(source.file, scenario, options.language));
+    findings.warnings.extend(unused_temperature(source, scenario, options.language));
+    findings.notes.extend(quantity_notes(source, scenario, options.language));
+    findings.notes.extend(certification_notes(source, scenario, options));
 }
 
 /// Describes the difficulty of a scenario's forms: the requested one, or all. Files with problems have already been reported.
@@ -86,24 +90,24 @@ pub fn check_forms(source: &ScenarioText<'_>, requested: Option<&str>, options: 
         let site = Site::build(&job, 0);
         let (defects, detection) = (site.defects(), site.predicted_detection(&job.tasks, &defects::REFERENCE_CAMERA));
         if job.defects.placed.is_none() && defects.len() < job.defects.count {
-            findings.warnings.push(format!(
-                "{}: form {form}: only {} of {} defects could be placed: choose another defect_seed or detection_pct",
-                source.file,
-                defects.len(),
-                job.defects.count
-            ));
+            let (placed, count) = (defects.len(), job.defects.count);
+            let words = text!(options.language, "check-form-incomplete", form = form.as_str(), placed = placed, count = count);
+            findings.warnings.push(format!("{}: {words}", source.file));
         }
         let gradable = defects.iter().filter(|defect| pictures::is_gradable(defect, &job, &options.aircraft.camera).0).count();
         let percent = |share: f64| format!("{:.1}%", 100.0 * share);
         let (low, high) = detection.iter().fold((1.0_f64, 0.0_f64), |(low, high), one| (low.min(*one), high.max(*one)));
-        findings.notes.push(format!(
-            "{}: form {form}: predicted detection {} on average ({} to {}); {gradable} of {} count for certification",
-            source.file,
-            percent(detection.iter().sum::<f64>() / detection.len().max(1) as f64),
-            percent(low),
-            percent(high),
-            count(defects.len(), "defect")
-        ));
+        let words = text!(
+            options.language,
+            "check-form",
+            form = form.as_str(),
+            mean = percent(detection.iter().sum::<f64>() / detection.len().max(1) as f64),
+            low = percent(low),
+            high = percent(high),
+            gradable = gradable,
+            defects = defects.len()
+        );
+        findings.notes.push(format!("{}: {words}", source.file));
     }
 }
 
@@ -116,8 +120,13 @@ pub fn check_levels(source: &ScenarioText<'_>, requested: Option<u8>, options: &
     let Some(difficulty) = source.read(source.text).and_then(|job| job.difficulty) else { return };
     let levels = difficulty.levels();
     for level in (1..=levels).filter(|level| requested.is_none_or(|one| one == *level)) {
-        let standard = if level == difficulty.standard { ", the standard level" } else { "" };
-        findings.notes.push(format!("{}: level {level} of {levels}{standard}: {}", source.file, difficulty.settings_at(level)));
+        let settings = level_settings(difficulty.settings_at(level), options.language);
+        let words = if level == difficulty.standard {
+            text!(options.language, "check-standard-level", level = level, levels = levels, settings = settings)
+        } else {
+            text!(options.language, "check-level", level = level, levels = levels, settings = settings)
+        };
+        findings.notes.push(format!("{}: {words}", source.file));
     }
     for level in [1, levels].into_iter().filter(|level| requested.is_none() && *level != difficulty.level) {
         let Some(job) = source.read(&scenario::select_level(source.text, level)) else { continue };
@@ -125,44 +134,55 @@ pub fn check_levels(source: &ScenarioText<'_>, requested: Option<u8>, options: &
         let site = built_site(&job, options);
         let problems = site.map_or_else(Vec::new, |site| clearance_problems(source, &job, &site, options));
         findings.problems.extend(problems.into_iter().map(|problem| Problem { message: at_level(&problem.message), ..problem }));
-        findings.warnings.extend(missing_defects_warning(source, &job, options).map(|warning| at_level(&warning)));
+        let warning = missing_defects_warning(source, &job, options);
+        let at_level = |warning| text!(options.language, "check-at-level", level = level, warning = warning);
+        findings.warnings.extend(warning.map(at_level));
     }
 }
 
 /// Lists the total quantity of each element of each bridge, as an inspection report does.
-fn quantity_notes(source: &ScenarioText<'_>, scenario: &Scenario) -> Vec<String> {
+fn quantity_notes(source: &ScenarioText<'_>, scenario: &Scenario, language: Language) -> Vec<String> {
     let of_bridge = |bridge: &Bridge| {
         let line = |quantity: &ElementQuantity| {
-            let (element, amount) = (quantity.element, quantity.text());
-            format!("{}: bridge {}: element {}, {}: {amount}", source.file, bridge.name, element.number(), element.name())
+            let (number, name) = (quantity.element.number(), element_title(quantity.element, language));
+            let (bridge, amount) = (bridge.name.as_str(), amount_words(quantity, language));
+            let words = text!(language, "check-quantity", bridge = bridge, number = number, name = name, amount = amount);
+            format!("{}: {words}", source.file)
         };
         bridge.quantities().iter().map(line).collect::<Vec<_>>()
     };
     scenario.bridges.iter().flat_map(of_bridge).collect()
 }
 
-/// Explains what a flight must reach to be certified in this job, and which defects the aircraft's camera can't resolve.
-fn certification_notes(source: &ScenarioText<'_>, scenario: &Scenario, aircraft: &Vehicle) -> Vec<String> {
-    let mut notes = requirements::describe(scenario, Language::English);
-    let path_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
-    let needed_min = job_time::job_needed_s(scenario) / 60.0;
-    let path = format!("{needed_min:.1} min for {path_m:.0} m of path");
-    if scenario.defects.number() == 0 {
-        notes.push(format!("time that the job needs: {path}"));
-    } else {
-        notes.push(format!("time that the job needs: {path} and {}", count(scenario.defects.number(), "defect")));
-        let finest_mm = image_quality::best_gsd_mm(&aircraft.camera, pictures::shortest_stand_off_m(scenario));
-        let crack_mm = finest_mm / scenario.certification.gsd_per_line_width;
-        notes.push(format!(
-            "the camera of {} reaches {finest_mm:.2} mm/px at the clearance limit; cracks narrower than {crack_mm:.1} mm do not count",
-            aircraft.name
-        ));
+/// Returns a quantity with its unit, in inspection reports and in SI.
+fn amount_words(quantity: &ElementQuantity, language: Language) -> String {
+    let (reported, si) = (format!("{:.0}", quantity.reported()), format!("{:.1}", quantity.amount));
+    match quantity.element.unit() {
+        Some(ElementUnit::SquareFeet) => text!(language, "check-amount-area", reported = reported, si = si),
+        Some(ElementUnit::Feet) => text!(language, "check-amount-length", reported = reported, si = si),
+        Some(ElementUnit::Each) | None => text!(language, "check-amount-each", reported = reported),
     }
-    notes.into_iter().map(|note| format!("{}: to be certified: {note}", source.file)).collect()
 }
 
-fn count(number: usize, what: &str) -> String {
-    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
+/// Explains what a flight must reach to be certified in this job, and which defects the aircraft's camera can't resolve.
+fn certification_notes(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<String> {
+    let CheckOptions { aircraft, language, .. } = *options;
+    let mut notes = requirements::describe(scenario, language);
+    let path_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
+    let needed_min = job_time::job_needed_s(scenario) / 60.0;
+    let (minutes, path) = (format!("{needed_min:.1}"), format!("{path_m:.0}"));
+    if scenario.defects.number() == 0 {
+        notes.push(text!(language, "check-time", minutes = minutes, path = path));
+    } else {
+        let defects = scenario.defects.number();
+        notes.push(text!(language, "check-time-with-defects", minutes = minutes, path = path, defects = defects));
+        let finest_mm = image_quality::best_gsd_mm(&aircraft.camera, pictures::shortest_stand_off_m(scenario));
+        let crack_mm = finest_mm / scenario.certification.gsd_per_line_width;
+        let (aircraft, finest, crack) = (aircraft.name.as_str(), format!("{finest_mm:.2}"), format!("{crack_mm:.1}"));
+        notes.push(text!(language, "check-camera", aircraft = aircraft, finest = finest, crack = crack));
+    }
+    let words = |note: String| text!(language, "check-to-be-certified", requirement = note);
+    notes.into_iter().map(|note| format!("{}: {}", source.file, words(note))).collect()
 }
 
 /// Returns the site of a scenario; `None` after the time limit.
@@ -239,12 +259,9 @@ fn placed_defect_warnings(
     let hidden = placed.iter().enumerate().take_while(|_| (options.may_continue)()).filter(|(_, defect)| !seen(defect));
     let hidden = hidden.map(|(k, defect)| {
         let line = lines.get(k).copied().unwrap_or(1);
-        format!(
-            "{}:{line}: defect {} cannot be photographed from within the threshold of any task: move it or a task's path, or make it larger",
-            source.file, defect.id
-        )
+        format!("{}:{line}: {}", source.file, text!(options.language, "check-hidden-defect", defect = defect.id))
     });
-    let forms = scenario.form.is_some().then(|| format!("{}: the placed defects are the same in all forms", source.file));
+    let forms = scenario.form.is_some().then(|| format!("{}: {}", source.file, text!(options.language, "check-placed-in-forms")));
     hidden.chain(forms).collect()
 }
 
@@ -335,21 +352,21 @@ fn key_line_number(text: &str, key: &str) -> Option<usize> {
 }
 
 /// Returns a warning for each task whose path an earlier task has, too, such as a copied task that was not changed.
-fn repeated_paths(source: &ScenarioText<'_>, scenario: &Scenario) -> Vec<String> {
+fn repeated_paths(source: &ScenarioText<'_>, scenario: &Scenario, language: Language) -> Vec<String> {
     let tasks = &scenario.tasks;
     let earlier = |k: usize| tasks[..k].iter().find(|task| task.path_m == tasks[k].path_m);
-    let words =
-        |task: &Task, earlier: &Task| format!("{}: task {} has the same path as task {}", source.file, task.id, earlier.id);
+    let words = |task: &Task, earlier: &Task| {
+        format!("{}: {}", source.file, text!(language, "check-same-path", task = task.id, other = earlier.id))
+    };
     tasks.iter().enumerate().filter_map(|(k, task)| Some(words(task, earlier(k)?))).collect()
 }
 
 /// Returns a warning if the battery's temperature is set, but has no effect.
-fn unused_temperature(source: &ScenarioText<'_>, scenario: &Scenario) -> Option<String> {
+fn unused_temperature(source: &ScenarioText<'_>, scenario: &Scenario, language: Language) -> Option<String> {
     const KEY: &str = "battery_temperature_c";
     let line = key_line_number(source.text, KEY)?;
-    (scenario.rules.battery == BatteryModel::Paper).then(|| {
-        format!("{}:{line}: rules.{KEY} has no effect with battery = \"paper\": set battery = \"physical\"", source.file)
-    })
+    (scenario.rules.battery == BatteryModel::Paper)
+        .then(|| format!("{}:{line}: {}", source.file, text!(language, "check-unused-temperature")))
 }
 
 /// Returns a warning if some requested defects cannot be placed. Tries the scenario's own seed, or the first few seeds.
@@ -364,12 +381,9 @@ fn missing_defects_warning(source: &ScenarioText<'_>, scenario: &Scenario, optio
     let (least, seed) = placed.min()?;
     let line = source.text.lines().position(|line| line.trim_start().starts_with("[defects]")).map_or(1, |k| k + 1);
     (least < wanted).then(|| {
-        format!(
-            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other spot on a bridge can be \
-             photographed from within a task's threshold; move the tasks closer to the structure, extend defects.elements or \
-             defects.kinds, or set the count to {least}",
-            source.file
-        )
+        let seed = seed.to_string();
+        let words = text!(options.language, "check-missing-defects", wanted = wanted, placed = least, seed = seed);
+        format!("{}:{line}: {words}", source.file)
     })
 }
 
@@ -410,7 +424,7 @@ mod tests {
         let file = format!("{name}.toml");
         let source = ScenarioText { file: &file, text, siblings: &|_| Err("none".into()) };
         let mut findings = Findings::default();
-        check(&source, &CheckOptions { aircraft, may_continue: ALWAYS }, &mut findings);
+        check(&source, &CheckOptions { aircraft, may_continue: ALWAYS, language: Language::English }, &mut findings);
         findings
     }
 
@@ -512,7 +526,7 @@ mod tests {
         let warnings = |keys: &str| {
             let text = shipped_text("masonry-arch").replace("battery = \"paper\"\n", keys);
             let warn = |source: &ScenarioText, _: &CheckOptions, findings: &mut Findings| {
-                findings.warnings.extend(unused_temperature(source, &source.read(&text).unwrap()));
+                findings.warnings.extend(unused_temperature(source, &source.read(&text).unwrap(), Language::English));
             };
             found("masonry-arch", &text, &aircraft(), warn).warnings
         };
@@ -626,7 +640,7 @@ mod tests {
     #[test]
     fn exact_no_step_begins_after_the_limit() {
         let aircraft = aircraft();
-        let options = CheckOptions { aircraft: &aircraft, may_continue: &|| false };
+        let options = CheckOptions { aircraft: &aircraft, may_continue: &|| false, language: Language::English };
         let source = ScenarioText { file: "a.toml", text: shipped::PILOT_STUDY, siblings: &|_| Err("none".into()) };
         let mut findings = Findings::default();
         check_forms(&source, None, &options, &mut findings);

@@ -388,4 +388,31 @@ mod tests {
         let told = read_rules("rules.toml", &session).unwrap_err().to_string();
         assert!(told.contains("in_tasks = 2") && told.contains("(allowed: 1)"), "{told}");
     }
+
+    /// Returns rules in which one explains `effect`, and another one has this group.
+    fn two_rules(effect: &str, group: &str) -> String {
+        let (head, _) = DEFAULT_RULES.split_once("[[rules]]").unwrap();
+        let rule = |name: &str, more: &str| {
+            format!(
+                "[[rules]]\nname = \"{name}\"\nmeasure = \"battery_low\"\nlimit = 0.5\nscenario = \"practice\"\nreason = \"x\"\n{more}\n"
+            )
+        };
+        let cause = rule("cause", &format!("explains = [\"{effect}\"]"));
+        format!("{head}{cause}{}", rule("effect", &format!("group = \"{group}\"")))
+    }
+
+    #[test]
+    fn exact_rule_explains_a_group_by_its_name() {
+        let read = |text: &str| read_rules("own.toml", text);
+        for effect in ["effect", "consequences"] {
+            let rules = read(&two_rules(effect, "consequences")).unwrap().rules;
+            assert!(rules[0].explains(&rules[1]) && !rules[1].explains(&rules[0]), "{effect}");
+        }
+        let told = read(&two_rules("others", "consequences")).unwrap_err().to_string();
+        assert!(told.contains("unknown rule or group") && told.contains("others"), "{told}");
+        let told = read(&two_rules("effect", "cause")).unwrap_err().to_string();
+        assert!(told.contains("group with the name of a rule"), "{told}");
+        let own_group = two_rules("consequences", "consequences").replace("explains", "group = \"consequences\"\nexplains");
+        assert!(read(&own_group).unwrap_err().to_string().contains("circular causes"));
+    }
 }

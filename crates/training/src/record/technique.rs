@@ -379,6 +379,8 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_mavlink::contract::contact::ContactKind;
+    use spandrel_model::time::SimTime;
 
     fn reversals(positions: &[f64]) -> usize {
         let mut counter = ReversalCounter::default();
@@ -393,6 +395,39 @@ mod tests {
         assert_eq!(reversals(&[0.0, 0.1, -0.05, 0.1, 0.0]), 0, "within the gap");
         assert_eq!(reversals(&[0.0, 1.0, 0.9, 1.0, 0.85, 0.5]), 1, "a dip within the gap is no reversal");
         assert_eq!(reversals(&[]), 0);
+    }
+
+    #[test]
+    fn exact_jumps_are_between_two_deflected_positions() {
+        let is = |before, after| is_jump((before, after));
+        assert!(is(0.2, 0.31) && is(-0.3, 0.3) && is(0.9, 0.5));
+        assert!(!is(0.2, 0.29), "a movement");
+        assert!(!is(0.0, 0.5) && !is(0.5, 0.01), "a key pressed, and a stick let go");
+    }
+
+    #[test]
+    fn exact_pictures_count_by_what_the_drone_did() {
+        let frame = |snapshot: bool, speed_m_s: f64, yaw: f64| Frame {
+            index: 1,
+            time: SimTime::ZERO,
+            sticks: [0.0, 0.0, 0.0, yaw],
+            light: false,
+            snapshot,
+            position_m: Vec3::zero(),
+            velocity_m_s: Vec3::new(0.6 * speed_m_s, 0.0, 0.8 * speed_m_s),
+            battery_pct: 100.0,
+            contact: ContactKind::None,
+            missing: false,
+            interpolated: false,
+            clearance_m: None,
+            armed: Some(true),
+            on_ground: false,
+        };
+        let pictures = [(0.1, 0.0), (0.3, 0.5), (0.45, -0.2), (0.6, 0.05)].map(|(speed_m_s, yaw)| frame(true, speed_m_s, yaw));
+        let frames = [pictures.as_slice(), &[frame(false, 0.3, 1.0)]].concat();
+        let shares = [is_in_motion, is_drifting, is_turning].map(|is_meant| share_of_pictures(&frames, is_meant));
+        assert_eq!(shares, [Some(0.25), Some(0.5), Some(0.5)]);
+        assert_eq!(share_of_pictures(&frames[4..], is_drifting), None, "no picture");
     }
 
     #[test]

@@ -32,12 +32,8 @@ pub struct CheckedScenario {
 
 /// Checks a text. `file` is the name in messages; `siblings` loads the files that the scenario refers to.
 #[must_use]
-pub fn check_text(
-    file: &str,
-    (text, siblings): (String, SiblingLoader),
-    options: &CheckOptions<'_>,
-    language: Language,
-) -> CheckedScenario {
+pub fn check_text(file: &str, (text, siblings): (String, SiblingLoader), options: &CheckOptions<'_>) -> CheckedScenario {
+    let language = options.language;
     let mut findings = Findings::default();
     let preview = {
         let source = ScenarioText { file, text: &text, siblings };
@@ -87,7 +83,7 @@ fn preview(scenario: &Scenario, options: &CheckOptions<'_>, language: Language) 
 }
 
 fn warning_list(language: Language, warnings: &[String]) -> Markup {
-    html! { ul.warnings { @for warning in warnings { li { (text!(language, "editor-warning")) " " span lang="en" { (warning) } } } } }
+    html! { ul.warnings { @for warning in warnings { li { (text!(language, "editor-warning")) " " (warning) } } } }
 }
 
 impl CheckedScenario {
@@ -143,7 +139,7 @@ impl CheckedScenario {
         }
     }
 
-    /// Renders the lists of problems, warnings and notes. Warnings and notes are in English, like those of `spandrel check`.
+    /// Renders the lists of problems, warnings and notes.
     #[must_use]
     pub fn findings_list(&self, language: Language) -> Markup {
         let Findings { problems, warnings, notes } = &self.findings;
@@ -160,7 +156,7 @@ impl CheckedScenario {
                 1 => (warning_list(language, warnings)),
                 count => { details.warnings id="check-warnings" { summary { (text!(language, "editor-warning-count", count = count)) } (warning_list(language, warnings)) } },
             }
-            @if !notes.is_empty() { details.notes id="check-notes" { summary { (text!(language, "editor-notes", count = notes.len())) } ul lang="en" { @for note in notes { li { (note) } } } } }
+            @if !notes.is_empty() { details.notes id="check-notes" { summary { (text!(language, "editor-notes", count = notes.len())) } ul { @for note in notes { li { (note) } } } } }
         }
     }
 
@@ -213,9 +209,13 @@ mod tests {
     use spandrel_model::vehicle;
 
     fn checked(text: &str, may_continue: &dyn Fn() -> bool) -> CheckedScenario {
+        checked_in(Language::English, text, may_continue)
+    }
+
+    fn checked_in(language: Language, text: &str, may_continue: &dyn Fn() -> bool) -> CheckedScenario {
         let aircraft = vehicle::read("phantom2.toml", PHANTOM2).unwrap();
-        let options = CheckOptions { aircraft: &aircraft, may_continue };
-        check_text("practice.toml", (text.to_owned(), &|_| Err("no file".to_owned())), &options, Language::English)
+        let options = CheckOptions { aircraft: &aircraft, may_continue, language };
+        check_text("practice.toml", (text.to_owned(), &|_| Err("no file".to_owned())), &options)
     }
 
     /// Returns an imported bridge: a block of 20 m.
@@ -247,12 +247,12 @@ mod tests {
             _ => Err("no such file".to_owned()),
         };
         let aircraft = vehicle::read("phantom2.toml", PHANTOM2).unwrap();
-        let options = CheckOptions { aircraft: &aircraft, may_continue: &|| true };
+        let options = CheckOptions { aircraft: &aircraft, may_continue: &|| true, language: Language::English };
         let edits =
             [set("tasks[1].name", "North side"), set("bridges[0].heading_deg", "75"), Edit::Add { location: "tasks".into() }];
         let edited = apply(&bridge.scenario, &edits).unwrap();
         for text in [bridge.scenario.clone(), edited] {
-            let checked = check_text("block.toml", (text.clone(), &load), &options, Language::English);
+            let checked = check_text("block.toml", (text.clone(), &load), &options);
             assert_eq!(checked.findings.problems, []);
             assert!(checked.preview.unwrap().into_string().contains("Side view of block"));
             assert!(text.contains("file = \"bridge.glb\"\nelements = \"elements.toml\""), "{text}");
@@ -350,5 +350,16 @@ mod tests {
         let stopped = checked(PRACTICE, &|| false);
         assert_eq!(stopped.status(Language::English), "No problems, 1 warning.");
         assert_eq!(stopped.status(Language::German), "Keine Probleme, 1 Warnung.");
+    }
+
+    #[test]
+    fn exact_warnings_and_notes_are_in_the_language_of_the_page() {
+        let text = PRACTICE.replacen("[rules]", "[rules]\nbattery_temperature_c = 5", 1).replacen("count = ", "count = 9", 1);
+        let [english, german, spanish] = Language::ALL.map(|language| checked_in(language, &text, &|| true).findings);
+        assert!(english.problems.is_empty() && english.warnings.len() >= 2 && english.notes.len() > 5, "{english:?}");
+        let all = |findings: &Findings| [findings.warnings.clone(), findings.notes.clone()].concat();
+        for ((english, german), spanish) in all(&english).iter().zip(&all(&german)).zip(&all(&spanish)) {
+            assert!(english != german && english != spanish && german != spanish, "{english}\n{german}\n{spanish}");
+        }
     }
 }
