@@ -412,7 +412,7 @@ mod tests {
         assert!(told.contains("unknown rule or group") && told.contains("others"), "{told}");
         let told = read(&two_rules("effect", "cause")).unwrap_err().to_string();
         assert!(told.contains("group with the name of a rule"), "{told}");
-        let own_group = two_rules("consequences", "consequences").replace("explains", "group = \"consequences\"\nexplains");
+        let own_group = two_rules("consequences", "consequences").replace("explains = ", "group = \"consequences\"\nexplains = ");
         assert!(read(&own_group).unwrap_err().to_string().contains("circular causes"));
     }
 }

@@ -354,9 +354,9 @@ mod tests {
 
     #[test]
     fn exact_warnings_and_notes_are_in_the_language_of_the_page() {
-        let text = PRACTICE.replacen("[rules]", "[rules]\nbattery_temperature_c = 5", 1).replacen("count = ", "count = 9", 1);
+        let text = PRACTICE.replacen("[rules]", "[rules]\nbattery_temperature_c = 5", 1);
         let [english, german, spanish] = Language::ALL.map(|language| checked_in(language, &text, &|| true).findings);
-        assert!(english.problems.is_empty() && english.warnings.len() >= 2 && english.notes.len() > 5, "{english:?}");
+        assert!(english.problems.is_empty() && !english.warnings.is_empty() && english.notes.len() > 5, "{english:?}");
         let all = |findings: &Findings| [findings.warnings.clone(), findings.notes.clone()].concat();
         for ((english, german), spanish) in all(&english).iter().zip(&all(&german)).zip(&all(&spanish)) {
             assert!(english != german && english != spanish && german != spanish, "{english}\n{german}\n{spanish}");
