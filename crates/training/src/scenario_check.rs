@@ -130,13 +130,12 @@ pub fn check_levels(source: &ScenarioText<'_>, requested: Option<u8>, options: &
     }
     for level in [1, levels].into_iter().filter(|level| requested.is_none() && *level != difficulty.level) {
         let Some(job) = source.read(&scenario::select_level(source.text, level)) else { continue };
-        let at_level = |words: &str| format!("at level {level}: {words}");
+        let at_level = |problem: Problem| Problem { message: format!("at level {level}: {}", problem.message), ..problem };
         let site = built_site(&job, options);
         let problems = site.map_or_else(Vec::new, |site| clearance_problems(source, &job, &site, options));
-        findings.problems.extend(problems.into_iter().map(|problem| Problem { message: at_level(&problem.message), ..problem }));
+        findings.problems.extend(problems.into_iter().map(at_level));
         let warning = missing_defects_warning(source, &job, options);
-        let at_level = |warning| text!(options.language, "check-at-level", level = level, warning = warning);
-        findings.warnings.extend(warning.map(at_level));
+        findings.warnings.extend(warning.map(|words| text!(options.language, "check-at-level", level = level, warning = words)));
     }
 }
 

@@ -2,6 +2,10 @@
 
 use super::questionnaire::{Answers, QuestionnaireItem};
 use super::record::{Crashes, DefectRecord, FORMAT_VERSION, Scores, SessionRecord, SessionTechnique, TaskRecord, TaskTechnique};
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::time::SimTime;
 use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
@@ -11,6 +15,26 @@ pub fn untranslated_word<'a>(pseudo: &'a str, kept: &[&str]) -> Option<&'a str> 
     // The letter m has no accented form.
     let mut plain = words.filter(|word| word.chars().any(|c| c.is_ascii_alphabetic() && !"mM".contains(c)));
     plain.find(|word| word.is_ascii() && !kept.contains(word))
+}
+
+/// Returns the first frame of a drone that hovers at a point.
+pub fn hovering_frame(position_m: Vec3<Enu>) -> Frame {
+    Frame {
+        index: 1,
+        time: SimTime::ZERO,
+        sticks: [0.0; 4],
+        light: false,
+        snapshot: false,
+        position_m,
+        velocity_m_s: Vec3::zero(),
+        battery_pct: 90.0,
+        contact: ContactKind::None,
+        missing: false,
+        interpolated: false,
+        clearance_m: None,
+        armed: Some(true),
+        on_ground: false,
+    }
 }
 
 /// Returns the record of a perfect flight on the TASBID job, with all 24 questions answered "agree".

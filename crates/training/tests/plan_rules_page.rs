@@ -79,6 +79,7 @@ fn page() -> String {
 /// Returns the section on the drills of the kinds of tasks.
 fn task_drills(rules: &PlanRules) -> String {
     let mut out = "\n## Drills of the tasks\n\nFor a mistake in one task only, the plan recommends the drill of its kind.\n\n| kind of task | drill |\n|---|---|\n".to_owned();
+    assert!(rules.rules.iter().any(|rule| rule.name == ONE_TASK_RULE), "no rule {ONE_TASK_RULE}");
     for rule in rules.rules.iter().filter(|rule| rule.name == ONE_TASK_RULE) {
         let _ = writeln!(out, "| `{}` | `{}` |", rule.task.unwrap(), rule.scenario);
     }

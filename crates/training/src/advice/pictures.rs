@@ -101,23 +101,33 @@ pub(super) fn none_found(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence>
 
 /// Pictures taken in motion.
 pub(super) fn in_motion(scan: &FlightScan<'_>) -> Option<Sentence> {
-    let (first, count, taken) = pictures_in(scan, |_, frame| is_in_motion(frame))?;
-    let at = clock(scan.t_s(first));
-    Some((text!(scan.language, "advice-moving-pictures", count = count, taken = taken, at = at), first))
+    of_those_taken(scan, is_in_motion, |count, taken, at| {
+        text!(scan.language, "advice-moving-pictures", count = count, taken = taken, at = at)
+    })
 }
 
 /// Pictures taken while the drone drifted.
 pub(super) fn while_drifting(scan: &FlightScan<'_>) -> Option<Sentence> {
-    let (first, count, taken) = pictures_in(scan, |_, frame| is_drifting(frame))?;
-    let at = clock(scan.t_s(first));
-    Some((text!(scan.language, "advice-drifting-pictures", count = count, taken = taken, at = at), first))
+    of_those_taken(scan, is_drifting, |count, taken, at| {
+        text!(scan.language, "advice-drifting-pictures", count = count, taken = taken, at = at)
+    })
 }
 
 /// Pictures taken while the pilot turned the drone.
 pub(super) fn while_turning(scan: &FlightScan<'_>) -> Option<Sentence> {
-    let (first, count, taken) = pictures_in(scan, |_, frame| is_turning(frame))?;
-    let at = clock(scan.t_s(first));
-    Some((text!(scan.language, "advice-turning-pictures", count = count, taken = taken, at = at), first))
+    of_those_taken(scan, is_turning, |count, taken, at| {
+        text!(scan.language, "advice-turning-pictures", count = count, taken = taken, at = at)
+    })
+}
+
+/// Returns the sentence on the pictures in such frames, composed from their number, that of all pictures, and the time of the first.
+fn of_those_taken(
+    scan: &FlightScan<'_>,
+    is_meant: fn(&Frame) -> bool,
+    compose: impl Fn(usize, usize, String) -> String,
+) -> Option<Sentence> {
+    let (first, count, taken) = pictures_in(scan, |_, frame| is_meant(frame))?;
+    Some((compose(count, taken, clock(scan.t_s(first))), first))
 }
 
 /// Pictures in the dark with the lamp off.

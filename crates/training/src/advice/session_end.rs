@@ -3,8 +3,7 @@
 use super::flight_scan::FlightScan;
 use super::wording::{Place, Sentence, listed};
 use crate::plan::BATTERY_RESERVE_PCT;
-use crate::record::TaskRecord;
-use crate::record::is_near_pad;
+use crate::record::{TaskRecord, last_approach};
 use crate::time_text::{clock, duration};
 use spandrel_monitor::session::EndReason;
 use spandrel_text::text;
@@ -50,7 +49,7 @@ pub(super) fn slow(scan: &FlightScan<'_>) -> Option<Sentence> {
 
 /// Time at the landing pad. The moment is the last approach.
 pub(super) fn landing(scan: &FlightScan<'_>) -> Option<Sentence> {
-    let away = scan.frames().iter().rposition(|frame| !is_near_pad(scan.evidence.scenario, frame))?;
+    let away = last_approach(scan.evidence.scenario, scan.frames())?;
     let (last, _) = end(scan);
     let took = duration(scan.t_s(last) - scan.t_s(away));
     Some((text!(scan.language, "advice-landing", took = took, at = clock(scan.t_s(away))), away))

@@ -20,7 +20,6 @@ const MIN_PASSED_FRACTION: f64 = 0.4;
 const MIN_OFF_PATH_FRACTION: f64 = 0.1;
 /// Minimum number of defects of a kind for a fraction of them to be meaningful (estimate: one missed defect is chance).
 const MIN_DEFECTS: usize = 2;
-
 /// Minimum number of pictures for the fraction of those taken in motion to be meaningful (estimate: of fewer, one is chance).
 const MIN_PICTURES: usize = 4;
 

@@ -17,7 +17,7 @@ pub use outcome::SessionOutcome;
 pub use source::{FORMAT_VERSION, RecordSource, SourceHashes};
 pub use task_record::{DefectRecord, TaskRecord};
 pub(crate) use technique::{
-    MAX_OFF_PATH_DISTANCE_M, NearPath, clearance_limit_m, is_drifting, is_in_motion, is_near_pad, is_turning, near_frames,
+    MAX_OFF_PATH_DISTANCE_M, NearPath, clearance_limit_m, is_drifting, is_in_motion, is_turning, last_approach, near_frames,
 };
 pub use technique::{SessionTechnique, TaskTechnique};
 

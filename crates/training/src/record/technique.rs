@@ -204,15 +204,16 @@ pub fn is_turning(frame: &Frame) -> bool {
     frame.sticks[3].abs() > TURNING
 }
 
-/// Returns whether the drone is near enough to the landing pad to land there.
-pub fn is_near_pad(scenario: &Scenario, frame: &Frame) -> bool {
-    (frame.position_m - scenario.ground_team.pad_m).horizontal_norm() <= LANDING_RADIUS_M
+/// Returns the index of the last frame before the drone came near the landing pad for good; `None` if it never left its surroundings.
+pub fn last_approach(scenario: &Scenario, frames: &[Frame]) -> Option<usize> {
+    let pad_m = scenario.ground_team.pad_m;
+    frames.iter().rposition(|frame| (frame.position_m - pad_m).horizontal_norm() > LANDING_RADIUS_M)
 }
 
 /// Returns the time since the last approach to the landing pad; `None` if the drone never left its surroundings.
 fn landing_s(source: &RecordSource<'_>) -> Option<f64> {
     let frames = &source.assessed_session.frames;
-    let away = frames.iter().rposition(|frame| !is_near_pad(source.scenario, frame))?;
+    let away = last_approach(source.scenario, frames)?;
     Some((frames.len() - 1 - away) as f64 / source.scenario.scoring.frame_rate_hz)
 }
 
@@ -379,8 +380,7 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spandrel_mavlink::contract::contact::ContactKind;
-    use spandrel_model::time::SimTime;
+    use crate::testing::hovering_frame;
 
     fn reversals(positions: &[f64]) -> usize {
         let mut counter = ReversalCounter::default();
@@ -408,20 +408,10 @@ mod tests {
     #[test]
     fn exact_pictures_count_by_what_the_drone_did() {
         let frame = |snapshot: bool, speed_m_s: f64, yaw: f64| Frame {
-            index: 1,
-            time: SimTime::ZERO,
             sticks: [0.0, 0.0, 0.0, yaw],
-            light: false,
             snapshot,
-            position_m: Vec3::zero(),
             velocity_m_s: Vec3::new(0.6 * speed_m_s, 0.0, 0.8 * speed_m_s),
-            battery_pct: 100.0,
-            contact: ContactKind::None,
-            missing: false,
-            interpolated: false,
-            clearance_m: None,
-            armed: Some(true),
-            on_ground: false,
+            ..hovering_frame(Vec3::zero())
         };
         let pictures = [(0.1, 0.0), (0.3, 0.5), (0.45, -0.2), (0.6, 0.05)].map(|(speed_m_s, yaw)| frame(true, speed_m_s, yaw));
         let frames = [pictures.as_slice(), &[frame(false, 0.3, 1.0)]].concat();

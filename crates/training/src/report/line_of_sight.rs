@@ -80,7 +80,7 @@ fn is_hidden(site: &Site, eye_m: Vec3<Enu>, drone_m: Vec3<Enu>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spandrel_mavlink::contract::contact::ContactKind;
+    use crate::testing::hovering_frame;
     use spandrel_model::scenario::INSPECTOR_EYE_HEIGHT_M;
     use spandrel_model::site::changes::SiteChanges;
     use spandrel_model::site::inspector_walks::InspectorWalks;
@@ -112,22 +112,8 @@ mod tests {
 
     /// Returns frames of a drone that stays at a point for 60 s, from 10 s after the start of the simulation on.
     fn hovering(position_m: Vec3<Enu>) -> Vec<Frame> {
-        let frame = |k: i64| Frame {
-            index: 1 + k as u32,
-            time: SimTime::from_ms(10_000 + 100 * k),
-            sticks: [0.0; 4],
-            light: false,
-            snapshot: false,
-            position_m,
-            velocity_m_s: Vec3::zero(),
-            battery_pct: 90.0,
-            contact: ContactKind::None,
-            missing: false,
-            interpolated: false,
-            clearance_m: None,
-            armed: Some(true),
-            on_ground: false,
-        };
+        let frame =
+            |k: i64| Frame { index: 1 + k as u32, time: SimTime::from_ms(10_000 + 100 * k), ..hovering_frame(position_m) };
         (0..=600).map(frame).collect()
     }
 
