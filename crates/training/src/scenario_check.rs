@@ -242,8 +242,11 @@ fn misplacement_words(defect: &PlacedDefect, wrong: Misplacement) -> (&'static s
     }
 }
 
-/// Returns a warning for each defect that the file places where no task's path allows a picture of it, and one if the file also has
-/// forms, which have no effect on placed defects.
+/// Keys of the difficulty table that have no effect on placed defects.
+const DEFECT_LEVEL_KEYS: [&str; 2] = ["detection_pct", "size_factor"];
+
+/// Returns a warning for each defect that the file places where no task's path allows a picture of it, and others if the file also has
+/// forms or difficulty levels of the defects, which have no effect on placed ones.
 fn placed_defect_warnings(
     source: &ScenarioText<'_>,
     scenario: &Scenario,
@@ -261,7 +264,11 @@ fn placed_defect_warnings(
         format!("{}:{line}: {}", source.file, text!(options.language, "check-hidden-defect", defect = defect.id))
     });
     let forms = scenario.form.is_some().then(|| format!("{}: {}", source.file, text!(options.language, "check-placed-in-forms")));
-    hidden.chain(forms).collect()
+    let level_key = DEFECT_LEVEL_KEYS.into_iter().find_map(|key| Some((key, difficulty_line(source.text, key)?)));
+    let levels = level_key.map(|(key, line)| {
+        format!("{}:{line}: {}", source.file, text!(options.language, "check-placed-at-levels", key = format!("difficulty.{key}")))
+    });
+    hidden.chain(forms).chain(levels).collect()
 }
 
 fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
@@ -346,8 +353,19 @@ fn place_problem(site: &Site, place_m: Vec3<Enu>) -> Option<(String, String)> {
 
 /// Returns the number of the first line that sets a key, alone or after the names of its tables; `None` if there is none.
 fn key_line_number(text: &str, key: &str) -> Option<usize> {
-    let sets = |line: &str| line.split_once('=').is_some_and(|(name, _)| name.trim().rsplit('.').next() == Some(key));
-    text.lines().position(sets).map(|k| k + 1)
+    text.lines().position(|line| sets(line, key)).map(|k| k + 1)
+}
+
+/// Returns whether a line sets a key.
+fn sets(line: &str, key: &str) -> bool {
+    line.split_once('=').is_some_and(|(name, _)| name.trim().rsplit('.').next() == Some(key))
+}
+
+/// Returns the line that sets a key in the difficulty table.
+fn difficulty_line(text: &str, key: &str) -> Option<usize> {
+    let head = *table_line_numbers(text, &["[difficulty]"]).first()?;
+    let mut table = text.lines().skip(head).take_while(|line| !line.trim_start().starts_with('['));
+    table.position(|line| sets(line, key)).map(|k| head + k + 1)
 }
 
 /// Returns a warning for each task whose path an earlier task has, too, such as a copied task that was not changed.
@@ -554,6 +572,11 @@ mod tests {
         let (_, fine) = findings(&own);
         assert_eq!((fine.problems, fine.warnings), (vec![], vec![]));
         assert!(fine.notes.iter().any(|note| note.ends_with("and 1 defect")), "{:?}", fine.notes);
+        let (drill, _) = scenario::edit::with_placed_defect(&shipped_text("drill-lamp"), &own).unwrap();
+        let found = scenario_findings("drill-lamp", &drill, &aircraft());
+        let expected = "difficulty.detection_pct has no effect: the placed defects are the same at all levels";
+        let line = drill.lines().position(|line| line.starts_with("detection_pct = [")).unwrap() + 1;
+        assert!(found.warnings.contains(&format!("drill-lamp.toml:{line}: {expected}")), "{found:?}");
         let problem = |defect: PlacedDefect| {
             let (line, found) = findings(&defect);
             let [problem] = found.problems.as_slice() else { panic!("{found:?}") };

@@ -1,7 +1,10 @@
 //! Difficulty levels: what a level changes, the checksums, and the errors in the `[difficulty]` table.
 
 use spandrel_model::scenario::{BridgeKind, Scenario, level_count, read, resolve, select_level};
-use spandrel_model::shipped::{DRILL_GAP, DRILL_HOVER, DRILL_SEARCH, PILOT_STUDY, TWO_BRIDGES};
+use spandrel_model::shipped::{
+    DRILL_FRAMING, DRILL_GAP, DRILL_HOVER, DRILL_LAMP, DRILL_SEARCH, DRILL_STAND_OFF, PILOT_STUDY, TWO_BRIDGES,
+};
+use spandrel_model::site::Site;
 use spandrel_model::toml::Problems;
 
 fn parse(text: &str) -> Result<Scenario, Problems> {
@@ -86,6 +89,18 @@ fn exact_each_level_has_its_own_checksum_which_survives_resolving() {
     let standard = resolve(DRILL_HOVER, 5, &[]);
     assert!(standard.contains("\nlevel = 5\n"), "a session states its level: {standard}");
     assert_eq!(parse(&standard).unwrap().crc, parse(DRILL_HOVER).unwrap().crc);
+}
+
+#[test]
+fn regress_sessions_of_drills_with_defects_can_be_read() {
+    for drill in [DRILL_FRAMING, DRILL_LAMP, DRILL_SEARCH, DRILL_STAND_OFF] {
+        let source = select_level(drill, 7);
+        let job = parse(&source).unwrap();
+        let defects = Site::build(&job, 5).defects().to_vec();
+        assert!(!defects.is_empty());
+        let session = parse(&resolve(&source, 5, &defects)).unwrap();
+        assert_eq!((session.crc, &session.difficulty, session.defects.placed), (job.crc, &job.difficulty, Some(defects)));
+    }
 }
 
 #[test]
