@@ -201,11 +201,11 @@ advice-moving-pictures =
     } { $at }: Halten Sie vor jedem Bild an.
 advice-drifting-pictures =
     { $taken ->
-        [one] Bei Ihrem einzigen Bild trieb die Drohne ab, bei
+        [one] Bei Ihrem einzigen Bild driftete die Drohne, bei
        *[other] Bei { $count ->
             [one] einem
            *[other] { $count }
-        } Ihrer { $taken } Bilder trieb die Drohne ab, { $count ->
+        } Ihrer { $taken } Bilder driftete die Drohne, { $count ->
             [one] bei
            *[other] zuerst bei
         }
@@ -227,12 +227,12 @@ advice-unlit-pictures =
         [task] {" "}von Aufgabe { $tasks }
         [tasks] {" "}der Aufgaben { $tasks }
        *[none] {""}
-    } war die Lampe aus, bei
+    } war der Scheinwerfer aus, bei
        *[other] Bei { $count } Bildern{ $place ->
         [task] {" "}von Aufgabe { $tasks }
         [tasks] {" "}der Aufgaben { $tasks }
        *[none] {""}
-    } war die Lampe aus, zuerst bei
+    } war der Scheinwerfer aus, zuerst bei
     } { $at }: Schalten Sie sie vor dem Bild ein.
 advice-pictures-of-nothing = { $taken ->
         [one] Auf Ihrem einzigen Bild, bei { $at }, ist kein neuer Schaden zu sehen
@@ -253,7 +253,7 @@ advice-not-covered = Sie haben nur { $shares } { $place ->
        *[none] der Bahn geflogen und sie
     } bei { $at } verlassen: Fliegen Sie jede Bahn bis zum Ende.
 advice-overtime = Sie sind { $flown } geflogen, { $over } länger als für die volle Punktzahl erlaubt; die Zeit war bei { $at } um: Planen Sie die Reihenfolge der Aufgaben.
-advice-slow = Sie sind { $flown } geflogen; bei Inspektionsgeschwindigkeit braucht dieser Auftrag { $needed }, die bei { $at } um waren: Verweilen Sie nicht, wo nichts zu sehen ist.
+advice-slow = Sie sind { $flown } geflogen; bei Inspektionsgeschwindigkeit dauert dieser Auftrag { $needed }. Ab { $at } lagen Sie darüber: Verweilen Sie nicht, wo nichts zu sehen ist.
 advice-landing = Ihre Landung dauerte { $took } ab dem letzten Anflug bei { $at }: Sinken Sie stetig und setzen Sie auf.
 advice-not-landed = Ihr Flug endete bei { $at }, { $away } m vom Landeplatz: Fliegen Sie zurück und landen Sie dort.
 advice-battery-low = Am Ende waren noch { $left }% Akku übrig; die Reserve von { $reserve }% war bei { $at } erreicht: Kehren Sie früher um.

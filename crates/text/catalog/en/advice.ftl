@@ -251,7 +251,7 @@ advice-not-covered = You flew only { $shares } of { $place ->
        *[none] the path and left it
     } at { $at }: fly each path to its end.
 advice-overtime = You flew for { $flown }, { $over } longer than full points allow; the time was up at { $at }: plan the order of the tasks.
-advice-slow = You flew for { $flown }; this job needs { $needed } at inspection speed, which were over at { $at }: don't linger where there is nothing to see.
+advice-slow = You flew for { $flown }; at inspection speed, this job takes { $needed }. From { $at } on, you were over that time: don't linger where there is nothing to see.
 advice-landing = Your landing took { $took } from your last approach at { $at }: descend steadily and touch down.
 advice-not-landed = Your flight ended at { $at }, { $away } m from the pad: fly back and land on it.
 advice-battery-low = You ended with { $left }% battery; the { $reserve }% reserve was reached at { $at }: turn back earlier.

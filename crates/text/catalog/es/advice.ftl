@@ -75,7 +75,7 @@ advice-stick-reversals = Invirtió el movimiento de las palancas hasta { $most }
         [tasks] {" "}en las tareas { $tasks }
        *[none] {""}
     }, sobre todo desde { $at }: haga correcciones pequeñas y suaves.
-advice-stick-jumps = Movió las palancas a tirones hasta { $most } veces por minuto{ $place ->
+advice-stick-jumps = Movió bruscamente las palancas hasta { $most } veces por minuto{ $place ->
         [task] {" "}en la tarea { $tasks }
         [tasks] {" "}en las tareas { $tasks }
        *[none] {""}
@@ -214,17 +214,17 @@ advice-turning-pictures =
     } { $at }: mantenga el rumbo hasta tomar la foto.
 advice-unlit-pictures =
     { $count ->
-        [one] La lámpara estaba apagada en una foto{ $place ->
+        [one] El foco estaba apagado en una foto{ $place ->
         [task] {" "}de la tarea { $tasks }
         [tasks] {" "}de las tareas { $tasks }
        *[none] {""}
     }, a los
-       *[other] La lámpara estaba apagada en { $count } fotos{ $place ->
+       *[other] El foco estaba apagado en { $count } fotos{ $place ->
         [task] {" "}de la tarea { $tasks }
         [tasks] {" "}de las tareas { $tasks }
        *[none] {""}
     }, la primera a los
-    } { $at }: enciéndala antes de la foto.
+    } { $at }: enciéndalo antes de la foto.
 advice-pictures-of-nothing = { $taken ->
         [one] Su única foto, a los { $at }, no muestra ningún defecto nuevo
        *[other] { $count } de sus { $taken } fotos { $count ->
@@ -244,7 +244,7 @@ advice-not-covered = Recorrió solo { $shares } { $place ->
        *[none] de la trayectoria y la dejó
     } a los { $at }: recorra cada trayectoria hasta el final.
 advice-overtime = Voló durante { $flown }, { $over } más de lo que permite la puntuación completa; el tiempo se cumplió a los { $at }: planifique el orden de las tareas.
-advice-slow = Voló durante { $flown }; a velocidad de inspección, este trabajo necesita { $needed }, que se cumplieron a los { $at }: no se demore donde no hay nada que ver.
+advice-slow = Voló durante { $flown }; a velocidad de inspección, este trabajo dura { $needed }. Desde los { $at } ya iba por encima de ese tiempo: no se demore donde no hay nada que ver.
 advice-landing = Su aterrizaje duró { $took } desde la última aproximación, a los { $at }: descienda de forma constante y tome tierra.
 advice-not-landed = Su vuelo terminó a los { $at }, a { $away } m de la plataforma de aterrizaje: regrese y aterrice en ella.
 advice-battery-low = Terminó con { $left }% de batería; la reserva de { $reserve }% se alcanzó a los { $at }: regrese antes.

@@ -72,7 +72,7 @@ impl<'a> FlightScan<'a> {
         let (scenario, frames) = (evidence.scenario, &evidence.assessed_session.frames);
         let paths = ReferencePaths::new(scenario);
         let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
-        let near = near_frames(scenario, frames, &paths, &on_path).collect();
+        let near = near_frames(scenario, frames, &paths, &on_path);
         Self { evidence, paths, on_path, near, language: Language::English }
     }
 

@@ -405,7 +405,7 @@ fn certification(ability: f64, stream: &mut RandomStream) -> CertificationRecord
         rms_framing_deg: None,
         low_clearance_share: 0.0,
     };
-    CertificationRecord { scores, requirements: Vec::new(), precision: Some(precision) }
+    CertificationRecord { scores, requirements: Vec::new(), precision: Some(precision), time_ratio: None }
 }
 
 #[test]

@@ -6,8 +6,8 @@ use crate::terms::{contact_title, error_label, score_title, task_title};
 use serde::Serialize;
 use spandrel_text::{Language, text};
 
-/// Minimum score change, points. Smaller changes are reported as unchanged.
-const MIN_REPORTED_CHANGE: f64 = 0.05;
+/// Values that are equal to the shown decimal are reported as unchanged.
+const SHOWN_DECIMAL: f64 = 10.0;
 
 /// The latest session compared with the previous one on the same job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -129,7 +129,7 @@ pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     let mut changes = Vec::new();
     let mut add = |measure: ChangedMeasure, before: Option<f64>, now: Option<f64>, more_is_better: bool| {
         if let (Some(before), Some(now)) = (before, now) {
-            let same = (now - before).abs() < MIN_REPORTED_CHANGE;
+            let same = (SHOWN_DECIMAL * now).round() == (SHOWN_DECIMAL * before).round();
             let what = measure.title(&last.scenario, Language::English);
             let better = (!same).then_some((now > before) == more_is_better);
             changes.push(MeasureChange { what, measure, before, now, better, within_error: None });

@@ -20,7 +20,12 @@ const MIN_PASSED_FRACTION: f64 = 0.4;
 const MIN_OFF_PATH_FRACTION: f64 = 0.1;
 /// Minimum number of defects of a kind for a fraction of them to be meaningful (estimate: one missed defect is chance).
 const MIN_DEFECTS: usize = 2;
-/// Minimum number of pictures for the fraction of those taken in motion to be meaningful (estimate: of fewer, one is chance).
+/// Minimum number of pictures near a path for a fraction of them to be meaningful (estimate, as for defects).
+const MIN_TASK_PICTURES: usize = 2;
+/// Minimum time near a path for rates, changes and the camera's direction there to be meaningful, s (estimate: in shorter tasks, arriving and
+/// leaving determine them).
+const MIN_NEAR_S: f64 = 20.0;
+/// Minimum number of pictures for a fraction of them to be meaningful (estimate: of fewer, one is chance).
 const MIN_PICTURES: usize = 4;
 
 /// A measured value and its source flight.
@@ -56,19 +61,19 @@ impl Finding<'_> {
 
 /// Returns the values that a rule evaluates: for task rules, one per task from its latest flight that has a value; for
 /// rules on several tasks and for session rules, the value from the latest session that has one.
-pub(super) fn findings<'a>(rule: &'a PlanRule, records: &'a [SessionRecord]) -> Vec<Finding<'a>> {
+pub(super) fn findings<'a>(rule: &'a PlanRule, records: &[&'a SessionRecord]) -> Vec<Finding<'a>> {
     match rule.measure {
         RuleMeasure::Task(measure) if rule.in_tasks > 1 => {
             let of = |record| in_several_tasks(rule, measure, record);
-            records.iter().rev().find_map(of).into_iter().collect()
+            records.iter().copied().rev().find_map(of).into_iter().collect()
         }
         RuleMeasure::Task(measure) => in_each_task(rule, measure, records),
         RuleMeasure::Session(measure) => {
-            let of = |record| {
+            let of = |record: &'a SessionRecord| {
                 let value = session_value(rule, measure, record)?;
                 Some(Finding { rule, value, task: None, tasks_over: (0, 0), record })
             };
-            records.iter().rev().find_map(of).into_iter().collect()
+            records.iter().copied().rev().find_map(of).into_iter().collect()
         }
     }
 }
@@ -88,9 +93,9 @@ fn in_several_tasks<'a>(rule: &'a PlanRule, measure: TaskMeasure, record: &'a Se
 }
 
 /// Returns each task's value from its latest flight that has one. Tasks are matched by kind, and free tasks by name.
-fn in_each_task<'a>(rule: &'a PlanRule, measure: TaskMeasure, records: &'a [SessionRecord]) -> Vec<Finding<'a>> {
+fn in_each_task<'a>(rule: &'a PlanRule, measure: TaskMeasure, records: &[&'a SessionRecord]) -> Vec<Finding<'a>> {
     let mut newest: Vec<Finding<'a>> = Vec::new();
-    for record in records.iter().rev() {
+    for record in records.iter().copied().rev() {
         for task in record.tasks.iter().filter(|task| fits(rule, task)) {
             let same = |seen: &Finding<'_>| {
                 let matches = |other: &TaskRecord| other.kind == task.kind && (task.kind != "free" || other.name == task.name);
@@ -116,6 +121,7 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
     };
     let flown = (task.attempted && reached).then_some(());
     let near = technique.filter(|technique| reached && technique.near_s > 0.0);
+    let lasting = near.filter(|near| near.near_s >= MIN_NEAR_S);
     let beside = technique.zip(task.covered).map(|(technique, covered)| (technique.passed - covered).max(0.0));
     let surplus = |error_m: Option<f64>, sign: f64| error_m.map(|error_m| (sign * error_m).max(0.0));
     match measure {
@@ -133,17 +139,17 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
         TaskMeasure::BesidePath => beside.filter(|_| reached),
         TaskMeasure::TooFar => surplus(near?.stand_off_error_m, 1.0),
         TaskMeasure::TooClose => surplus(near?.stand_off_error_m, -1.0),
-        TaskMeasure::UnevenStandOff => near?.stand_off_spread_m,
+        TaskMeasure::UnevenStandOff => lasting?.stand_off_spread_m,
         TaskMeasure::TooLow => surplus(near?.height_error_m, -1.0),
         TaskMeasure::TooHigh => surplus(near?.height_error_m, 1.0),
-        TaskMeasure::UnevenHeight => near?.height_spread_m,
+        TaskMeasure::UnevenHeight => lasting?.height_spread_m,
         TaskMeasure::LowClearance => near.map(|near| near.low_clearance),
-        TaskMeasure::Framing => near?.rms_framing_deg,
-        TaskMeasure::LampOff => near?.lamp_off,
-        TaskMeasure::StickReversals => near.map(|near| near.stick_reversals_per_min),
-        TaskMeasure::YawReversals => near.map(|near| near.yaw_reversals_per_min),
-        TaskMeasure::StickJumps => near?.stick_jumps_per_min,
-        TaskMeasure::UnlitPictures => near?.unlit_pictures,
+        TaskMeasure::Framing => lasting?.rms_framing_deg,
+        TaskMeasure::LampOff => lasting?.lamp_off,
+        TaskMeasure::StickReversals => lasting.map(|near| near.stick_reversals_per_min),
+        TaskMeasure::YawReversals => lasting.map(|near| near.yaw_reversals_per_min),
+        TaskMeasure::StickJumps => lasting?.stick_jumps_per_min,
+        TaskMeasure::UnlitPictures => near.filter(|near| near.pictures >= Some(MIN_TASK_PICTURES))?.unlit_pictures,
         TaskMeasure::MissedAtTask => {
             let searched = task.state == Some(TaskState::Done) && task.defects_placed >= MIN_DEFECTS;
             searched.then(|| 1.0 - task.defects_found as f64 / task.defects_placed as f64)
@@ -185,7 +191,10 @@ fn session_value(rule: &PlanRule, measure: SessionMeasure, record: &SessionRecor
             if all >= MIN_DEFECTS { share(poor, all) } else { None }
         }
         SessionMeasure::NoPictures => searched(record).next().map(|_| f64::from(u8::from(record.snapshots == 0))),
-        SessionMeasure::FalseSnapshots => share(record.snapshots - record.hits.min(record.snapshots), record.snapshots),
+        SessionMeasure::FalseSnapshots => {
+            let has_defects = has_pictures && !record.defects.is_empty();
+            has_defects.then(|| 1.0 - record.hits.min(record.snapshots) as f64 / record.snapshots as f64)
+        }
         // An efficiency score of 0 to 100 corresponds to -100 to 100 points. After a battery failure, the points don't
         // reflect the time.
         SessionMeasure::Overtime => {
@@ -200,8 +209,8 @@ fn session_value(rule: &PlanRule, measure: SessionMeasure, record: &SessionRecor
         SessionMeasure::TurningPictures => record.technique?.turning_pictures.filter(|_| has_pictures),
         SessionMeasure::Landing => record.technique?.landing_s,
         SessionMeasure::Slow => {
-            let efficiency = record.certification.as_ref()?.scores.efficiency;
-            record.is_complete().then(|| 1.0 - efficiency / 100.0)
+            let ratio = record.certification.as_ref()?.time_ratio.filter(|_| record.is_complete())?;
+            Some((ratio - 1.0).max(0.0))
         }
         SessionMeasure::Exposure => record.technique.map(|technique| technique.exposure_s),
     }

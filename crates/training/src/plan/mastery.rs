@@ -66,7 +66,7 @@ impl DrillProgress {
 /// Returns whether a session meets a drill's criterion: the session is complete, and no limit is exceeded.
 #[must_use]
 pub fn meets_criterion(record: &SessionRecord, drill: &DrillCriterion) -> bool {
-    let is_within = |rule| findings(rule, std::slice::from_ref(record)).iter().all(|finding| finding.value <= rule.limit);
+    let is_within = |rule| findings(rule, &[record]).iter().all(|finding| finding.value <= rule.limit);
     record.is_complete() && drill.limits.iter().all(is_within)
 }
 

@@ -30,7 +30,8 @@ pub enum TaskMeasure {
     TooFar,
     /// Median distance from the surface below the path's stand-off, m.
     TooClose,
-    /// Change of the distance from the surface: half its range, without the outermost tenths, m.
+    /// Change of the distance from the surface: half its range, without the outermost tenths, m; like all rates, changes and the camera's
+    /// direction, only from 20 s near the path.
     UnevenStandOff,
     /// Median height below the path, m.
     TooLow,
@@ -50,7 +51,7 @@ pub enum TaskMeasure {
     YawReversals,
     /// Jumps of the forward, right and up sticks per minute near the path.
     StickJumps,
-    /// Fraction of the pictures near the path of a dark task that were taken with the lamp off.
+    /// Fraction of the pictures near the path of a dark task that were taken with the lamp off, if there are at least two.
     UnlitPictures,
     /// Fraction of a done task's defects not shown in any picture, if it has at least two.
     MissedAtTask,
@@ -77,7 +78,7 @@ pub enum SessionMeasure {
     PoorPictures,
     /// 1 if there were defects to photograph but no picture was taken.
     NoPictures,
-    /// Fraction of pictures that show no new defect.
+    /// Fraction of pictures that show no new defect, if there are at least four and the job has defects.
     FalseSnapshots,
     /// Fraction of pictures taken above 0.5 m/s, if there are at least four.
     MovingPictures,
@@ -89,7 +90,7 @@ pub enum SessionMeasure {
     Landing,
     /// Flight time beyond the time for full efficiency, min.
     Overtime,
-    /// Flight time beyond what the job needs, as the fraction of the certification's efficiency that is lost.
+    /// Flight time beyond what the job needs, as a fraction of that; not measured in drills and in the lesson.
     Slow,
     /// 1 if the flight did not end with a landing at home.
     NotLanded,
@@ -166,6 +167,11 @@ pub const MEASURES: &[(&str, RuleMeasure)] = &[
 ];
 
 impl RuleMeasure {
+    /// Returns whether the measure means nothing in drills and in the lesson.
+    pub(super) fn is_about_jobs(self) -> bool {
+        self == Self::Session(SessionMeasure::Slow)
+    }
+
     /// Returns the measure's unit.
     #[must_use]
     pub fn unit(self) -> MeasureUnit {

@@ -19,7 +19,7 @@ pub use default_reasons::rule_title;
 pub use level_settings::level_settings;
 pub use mastery::{DrillProgress, meets_criterion};
 pub use measure::{MEASURES, MeasureUnit, RuleMeasure, SessionMeasure, TaskMeasure};
-pub use rules::{DEFAULT_RULES, DrillCriterion, PlanRule, PlanRules, StaircaseRule, read_rules};
+pub use rules::{DEFAULT_RULES, DrillCriterion, LESSON, PlanRule, PlanRules, StaircaseRule, read_rules};
 pub use staircase::{LevelAdvice, StaircaseSession};
 
 use super::record::{IncompletePolicy, SessionOutcome, SessionRecord};
@@ -29,8 +29,6 @@ use serde::Serialize;
 use spandrel_model::shipped::SCENARIOS;
 use spandrel_text::{Language, text};
 
-/// Machine-readable scenario name of the lesson.
-pub const LESSON: &str = "first-flight";
 /// Length of a day, µs.
 const DAY_US: f64 = 86_400e6;
 
@@ -200,7 +198,10 @@ fn recommended_steps(
     rules: &PlanRules,
     language: Language,
 ) -> Vec<PlanStep> {
-    let findings = rules.rules.iter().flat_map(|rule| finding::findings(rule, records));
+    let all: Vec<&SessionRecord> = records.iter().collect();
+    let jobs: Vec<&SessionRecord> = records.iter().filter(|record| !rules.is_exercise(&record.scenario)).collect();
+    let of = |rule| finding::findings(rule, if rule.measure.is_about_jobs() { &jobs } else { &all });
+    let findings = rules.rules.iter().flat_map(of);
     let ranked = causes::rank(findings.filter(|finding| finding.value > finding.rule.limit).collect());
     let mut steps: Vec<PlanStep> = Vec::new();
     let is_open = |one: &&RankedFinding<'_>| !is_answered(&ranked[one.cause.unwrap_or(one.index)].finding, drills);
@@ -273,10 +274,8 @@ fn retention_words(rules: &PlanRules, days: f64, language: Language) -> String {
 /// job of the trainee's own.
 fn next_job<'a>(rules: &'a PlanRules, last: &'a SessionRecord) -> &'a str {
     let name = last.scenario.as_str();
-    let is_exercise =
-        name == LESSON || name == rules.retention_scenario || rules.drills.iter().any(|drill| drill.scenario == name);
     let is_shipped = SCENARIOS.iter().any(|(shipped, _)| *shipped == name);
-    if is_shipped && !is_exercise { name } else { &rules.job }
+    if is_shipped && name != rules.retention_scenario && !rules.is_exercise(name) { name } else { &rules.job }
 }
 
 /// Returns the reason for flying the whole job. A reason other than the default one stays in its language.

@@ -8,6 +8,8 @@ use spandrel_model::toml::{Problems, Reader, Section};
 /// Default rules of the training plan, in TOML.
 pub const DEFAULT_RULES: &str = include_str!("rules.toml");
 
+/// Machine-readable scenario name of the lesson.
+pub const LESSON: &str = "first-flight";
 /// File format version.
 const FORMAT_VERSION: i64 = 1;
 /// Value of a rule's `scenario` that stands for the drill of the task's kind in `[task_drills]`.
@@ -136,6 +138,12 @@ pub struct PlanRules {
 }
 
 impl PlanRules {
+    /// Returns whether a scenario is the lesson or a drill, not a job.
+    #[must_use]
+    pub fn is_exercise(&self, scenario: &str) -> bool {
+        scenario == LESSON || self.drills.iter().any(|drill| drill.scenario == scenario)
+    }
+
     /// Returns the rules with each scenario that is not installed replaced by the rule's `otherwise`, if it has one.
     #[must_use]
     pub fn for_installed(mut self, is_installed: impl Fn(&str) -> bool) -> Self {

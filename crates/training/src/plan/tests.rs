@@ -48,7 +48,7 @@ fn set_task(task: &mut TaskRecord, measure: TaskMeasure, value: f64, crashes: Cr
         TaskMeasure::StickReversals => technique.stick_reversals_per_min = value,
         TaskMeasure::YawReversals => technique.yaw_reversals_per_min = value,
         TaskMeasure::StickJumps => technique.stick_jumps_per_min = Some(value),
-        TaskMeasure::UnlitPictures => technique.unlit_pictures = Some(value),
+        TaskMeasure::UnlitPictures => (technique.pictures, technique.unlit_pictures) = (Some(2), Some(value)),
         TaskMeasure::MissedAtTask => {
             (task.state, task.defects_placed, task.defects_found) =
                 (Some(TaskState::Done), 100, (100.0 * (1.0 - value)).round() as usize);
@@ -91,7 +91,7 @@ fn set_session(record: &mut SessionRecord, rule: &PlanRule, measure: SessionMeas
         SessionMeasure::TurningPictures => record.technique.as_mut().unwrap().turning_pictures = Some(value),
         SessionMeasure::Landing => record.technique.as_mut().unwrap().landing_s = Some(value),
         SessionMeasure::DriftingPictures => record.technique.as_mut().unwrap().drifting_pictures = Some(value),
-        SessionMeasure::Slow => record.certification = Some(certification_with_efficiency(100.0 * (1.0 - value))),
+        SessionMeasure::Slow => record.certification = Some(certification_with_time(1.0 + value)),
         SessionMeasure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
         SessionMeasure::NotLanded => record.end_reason = if over { "abort".into() } else { "landed".into() },
         SessionMeasure::BatteryLow => record.battery_at_end_pct = if over { 19.0 } else { 21.0 },
@@ -100,12 +100,13 @@ fn set_session(record: &mut SessionRecord, rule: &PlanRule, measure: SessionMeas
     }
 }
 
-fn certification_with_efficiency(efficiency: f64) -> CertificationRecord {
+fn certification_with_time(ratio: f64) -> CertificationRecord {
     let perfect = Some(100.0);
     let (conformity, accuracy, precision, safety) = (perfect, perfect, perfect, 100.0);
+    let efficiency = 100.0 * (2.0 - ratio).clamp(0.0, 1.0);
     let scores =
         CertificationScores { conformity, efficiency, safety, accuracy, precision, sum: 400.0 + efficiency, sum_max: 500.0 };
-    CertificationRecord { scores, requirements: Vec::new(), precision: None }
+    CertificationRecord { scores, requirements: Vec::new(), precision: None, time_ratio: Some(ratio) }
 }
 
 /// Returns a record in which the rule's measure is `factor` times its limit.
@@ -151,6 +152,33 @@ fn exact_shipped_rules_apply_only_above_their_limit() {
         assert!(!words.contains(['{', '}']) && words.len() > 20, "{}: {words}", rule.name);
         assert_eq!(reason_of(&of(0.8), &rule.name), None, "{} fires below its limit", rule.name);
     }
+}
+
+#[test]
+fn exact_few_pictures_and_short_tasks_show_no_habit() {
+    let of = |rule: &str, less: fn(&mut SessionRecord)| {
+        let rules = PlanRules { steps: 20, focus: 0.0, ..rules() };
+        let mut record = record_with_measure(rules.rules.iter().find(|one| one.name == rule).unwrap(), 1.2);
+        let fires = |record: &SessionRecord| {
+            reason_of(&plan(std::slice::from_ref(record), &rules, NOW, Language::English).unwrap(), rule).is_some()
+        };
+        let before = fires(&record);
+        less(&mut record);
+        (before, fires(&record))
+    };
+    let shorter: fn(&mut SessionRecord) = |record| record.tasks.iter_mut().for_each(|task| technique(task).near_s = 19.9);
+    for rule in ["lamp off", "poor framing", "unsteady heading", "jerky sticks", "uneven height in one task"] {
+        assert_eq!(of(rule, shorter), (true, false), "{rule}");
+    }
+    assert_eq!(of("too far in one task", shorter), (true, true), "a distance needs no time");
+    let one_picture: fn(&mut SessionRecord) = |record| record.tasks.iter_mut().for_each(|task| technique(task).pictures = Some(1));
+    assert_eq!(of("pictures with the lamp off", one_picture), (true, false));
+    assert_eq!(of("pictures of nothing", |record| (record.snapshots, record.hits) = (3, 0)), (true, false));
+    assert_eq!(of("pictures of nothing", |record| record.defects.clear()), (true, false), "nothing to photograph");
+}
+
+fn technique(task: &mut TaskRecord) -> &mut crate::record::TaskTechnique {
+    task.technique.as_mut().unwrap()
 }
 
 /// Returns the names of the rules that recommend the first scenario, and those of their consequences.
@@ -276,6 +304,24 @@ fn exact_drill_is_done_after_two_of_three_sessions_at_its_criterion() {
     for open in [&[0.95, 0.5][..], &[0.95, 0.5, 0.5], &[0.95, 0.95, 0.5, 0.5]] {
         assert_eq!((of(open).0.as_str(), of(open).2), ("drill-gap", false), "{open:?}");
     }
+}
+
+#[test]
+fn exact_only_jobs_are_slow() {
+    let slow = |mut record: SessionRecord| {
+        record.certification = Some(certification_with_time(2.5));
+        record
+    };
+    let mut lesson = perfect_record("anna", 1);
+    lesson.scenario = LESSON.into();
+    for exercise in [gap_drill(2, 1.0), lesson] {
+        let plan = plan(&[slow(exercise)], &rules(), NOW, Language::English).unwrap();
+        assert_eq!(reason_of(&plan, "slow for the job"), None);
+    }
+    let plan = plan(&[slow(perfect_record("anna", 1)), gap_drill(2, 1.0)], &rules(), NOW, Language::English).unwrap();
+    let (_, reason) = reason_of(&plan, "slow for the job").unwrap();
+    assert_eq!(reason.session, "session-anna-001", "a drill afterward does not answer the question");
+    assert!(reason.words.contains("took 150% longer"), "{}", reason.words);
 }
 
 #[test]

@@ -127,6 +127,9 @@ pub struct CertificationRecord {
     /// Precision measures over the visits to all tasks; absent if no path was entered, and in records before format 7.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub precision: Option<PrecisionMeasures>,
+    /// Flight time divided by the time that the job needs; absent in records before format 10.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_ratio: Option<f64>,
 }
 
 /// The four scores, each from 0 to 100, and their sum.
@@ -269,6 +272,7 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
             scores: assessment.certification.scores,
             requirements: assessment.certification.requirements.clone(),
             precision: assessment.certification.precision,
+            time_ratio: Some(assessment.certification.time.ratio),
         }),
         answers: source.answers.cloned(),
     }

@@ -7,7 +7,7 @@ use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::score::SCORER_VERSION;
 
 /// Record format version. It is incremented when fields are added so that older records are recreated.
-pub const FORMAT_VERSION: u32 = 9;
+pub const FORMAT_VERSION: u32 = 10;
 
 /// Inputs used to create a record.
 #[derive(Debug, Clone, Copy)]

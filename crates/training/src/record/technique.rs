@@ -13,6 +13,8 @@ use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 /// Maximum distance from a path at which the drone counts as off that path, m. Farther away, it counts as elsewhere
 /// (docs/src/reference/assessment.md, "Feedback during the flight").
 pub const MAX_OFF_PATH_DISTANCE_M: f64 = 8.0;
+/// Fraction of the time near a path that the drone must be on it for the path to count as flown (estimate).
+const MIN_ON_PATH_FRACTION: f64 = 0.5;
 /// Stick movement that counts as a reversal, as a fraction of the travel from the center to the stop (the method of
 /// steering wheel reversals in SAE J2944; the value for sticks is an estimate).
 const REVERSAL_GAP: f64 = 0.2;
@@ -23,8 +25,9 @@ const MAX_LEVEL_VIEW_UP: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const MOVING_M_S: f64 = 0.5;
 /// Speed above which the drone drifts while a picture is taken, m/s (estimate: careful pilots take theirs below 0.15 m/s).
 const DRIFTING_M_S: f64 = 0.2;
-/// Stick movement from one frame to the next that counts as a jump, as a fraction of the travel from the center to the stop (estimate).
-const JUMP: f64 = 0.1;
+/// Speed of a stick between two frames from which it jumps, in travels from the center to the stop per second (estimate: a tenth of the travel
+/// between two frames at 30 Hz).
+const JUMP_PER_S: f64 = 3.0;
 /// Deflection from which a stick isn't centered, as a fraction of that travel (estimate). To let go of a stick or to start a movement
 /// with a key is no jump.
 const DEFLECTED: f64 = 0.02;
@@ -38,10 +41,11 @@ const SPREAD_QUANTILES: (f64, f64) = (0.1, 0.9);
 const END_TOLERANCE_M: f64 = 1e-6;
 
 /// How one task was flown. Frames count for the path that the drone is on or else for the nearest one within 8 m,
-/// except while the drone is past that path's ends.
+/// except while the drone is past that path's ends. If it was on the path for at least half of that time, only frames between
+/// the first and the last one on the path count, not the way to and from the path.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct TaskTechnique {
-    /// Time on the path or within 8 m of it, s.
+    /// Time that counts for this path, s.
     pub near_s: f64,
     /// Fraction of the path's length that the drone passed within 8 m, 0 to 1.
     pub passed: f64,
@@ -73,12 +77,15 @@ pub struct TaskTechnique {
     pub stick_reversals_per_min: f64,
     /// Number of reversals per minute near the path of the yaw stick.
     pub yaw_reversals_per_min: f64,
-    /// Number of jumps per minute near the path of the forward, right and up sticks together: movements by more than a tenth of the
-    /// travel from one frame to the next, between two deflected positions. `None` in records before format 9.
+    /// Number of jumps per minute near the path of the forward, right and up sticks together: movements faster than 3 travels per
+    /// second between two deflected positions. `None` in records before format 9.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stick_jumps_per_min: Option<f64>,
-    /// Fraction of the pictures near the path that were taken with the lamp off, 0 to 1; `None` if the task needs no lamp, without
-    /// pictures there, and in records before format 9.
+    /// Number of pictures taken near the path; `None` in records before format 10.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pictures: Option<usize>,
+    /// Fraction of these pictures that were taken with the lamp off, 0 to 1; `None` if the task needs no lamp, without pictures
+    /// there, and in records before format 9.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unlit_pictures: Option<f64>,
     /// Contacts within the task's window, merged if they are less than a second apart.
@@ -121,7 +128,8 @@ struct NearSamples {
     low_clearance: usize,
     lamp_off: usize,
     sticks: [ReversalCounter; 4],
-    latest_sticks: Option<[f64; 4]>,
+    /// Index and sticks of the latest of these frames.
+    latest: Option<(usize, [f64; 4])>,
     jumps: usize,
     pictures: usize,
     unlit_pictures: usize,
@@ -158,6 +166,7 @@ impl ReversalCounter {
 pub(super) fn tasks(source: &RecordSource<'_>, paths: &ReferencePaths, on_path: &OnPath) -> Vec<TaskTechnique> {
     let (scenario, frames) = (source.scenario, &source.assessed_session.frames);
     let count = scenario.tasks.len();
+    let frame_s = 1.0 / scenario.scoring.frame_rate_hz;
     let mut samples: Vec<NearSamples> = (0..count).map(|_| NearSamples::default()).collect();
     let mut passed: Vec<FlownPath> = (0..count).map(|task| FlownPath::new(paths.path(task), MAX_OFF_PATH_DISTANCE_M)).collect();
     for (k, (frame, near)) in frames.iter().zip(near_frames(scenario, frames, paths, on_path)).enumerate() {
@@ -166,9 +175,9 @@ pub(super) fn tasks(source: &RecordSource<'_>, paths: &ReferencePaths, on_path: 
         }
         if let Some(near) = near {
             samples[near.task].add(frame, &near, &scenario.tasks, clearance_limit_m(scenario, near.task));
+            samples[near.task].add_sticks((k, frame.sticks), frame_s);
         }
     }
-    let frame_s = 1.0 / scenario.scoring.frame_rate_hz;
     let one = |(task, samples): (usize, NearSamples)| {
         let passed = if samples.frames > 0 { passed[task].coverage().share } else { 0.0 };
         with_certification(source, task, samples.technique(&scenario.tasks[task], passed, frame_s))
@@ -226,8 +235,8 @@ fn share_of_pictures(frames: &[Frame], is_meant: fn(&Frame) -> bool) -> Option<f
 }
 
 /// Returns whether a stick jumps between two positions in consecutive frames.
-fn is_jump((before, after): (f64, f64)) -> bool {
-    (after - before).abs() > JUMP && before.abs() > DEFLECTED && after.abs() > DEFLECTED
+fn is_jump((before, after): (f64, f64), frame_s: f64) -> bool {
+    (after - before).abs() > JUMP_PER_S * frame_s && before.abs() > DEFLECTED && after.abs() > DEFLECTED
 }
 
 /// Returns the merged contacts of a task, or outside all tasks, and the speed of the fastest.
@@ -282,17 +291,22 @@ impl NearPath {
     }
 }
 
-/// Returns the path that each frame counts for; `None` for a missing frame and for one that is elsewhere.
-pub fn near_frames<'a>(
-    scenario: &'a Scenario,
-    frames: &'a [Frame],
-    paths: &'a ReferencePaths,
-    on_path: &'a OnPath,
-) -> impl Iterator<Item = Option<NearPath>> + 'a {
-    frames
-        .iter()
-        .zip(&on_path.task)
-        .map(|(frame, on)| if frame.missing { None } else { near_task(paths, &scenario.tasks, frame, on.map(|(task, _)| task)) })
+/// Returns the path that each frame counts for; `None` for a missing frame, for one that is elsewhere, and for the way to and from a
+/// path that was flown.
+pub fn near_frames(scenario: &Scenario, frames: &[Frame], paths: &ReferencePaths, on_path: &OnPath) -> Vec<Option<NearPath>> {
+    let near = |(frame, on): (&Frame, &Option<(usize, usize)>)| {
+        if frame.missing { None } else { near_task(paths, &scenario.tasks, frame, on.map(|(task, _)| task)) }
+    };
+    let mut near: Vec<Option<NearPath>> = frames.iter().zip(&on_path.task).map(near).collect();
+    for (task, window) in on_path.windows.iter().enumerate() {
+        let is_near = |near: &Option<NearPath>| near.is_some_and(|near| near.task == task);
+        let on = on_path.task.iter().flatten().filter(|(on, _)| *on == task).count();
+        let all = near.iter().filter(|near| is_near(near)).count();
+        let Some(window) = window.filter(|_| on as f64 >= MIN_ON_PATH_FRACTION * all as f64) else { continue };
+        let outside = near.iter_mut().enumerate().filter(|(frame, near)| is_near(near) && !window.contains(*frame));
+        outside.for_each(|(_, near)| *near = None);
+    }
+    near
 }
 
 /// Returns the minimum clearance near a task's path, m.
@@ -329,11 +343,16 @@ impl NearSamples {
         self.lamp_off += usize::from(!frame.light);
         self.pictures += usize::from(frame.snapshot);
         self.unlit_pictures += usize::from(frame.snapshot && !frame.light);
-        for (counter, position) in self.sticks.iter_mut().zip(frame.sticks) {
+    }
+
+    /// Adds the sticks of the frame with this index. Only consecutive frames can show a jump.
+    fn add_sticks(&mut self, (index, sticks): (usize, [f64; 4]), frame_s: f64) {
+        for (counter, position) in self.sticks.iter_mut().zip(sticks) {
             counter.add(position);
         }
-        if let Some([forward, right, up, _]) = self.latest_sticks.replace(frame.sticks) {
-            self.jumps += [forward, right, up].into_iter().zip(frame.sticks).filter(|&pair| is_jump(pair)).count();
+        let before = self.latest.replace((index, sticks)).filter(|(latest, _)| latest + 1 == index);
+        if let Some((_, [forward, right, up, _])) = before {
+            self.jumps += [forward, right, up].into_iter().zip(sticks).filter(|&pair| is_jump(pair, frame_s)).count();
         }
     }
 
@@ -355,6 +374,7 @@ impl NearSamples {
             stick_reversals_per_min: per_min(forward + right + up),
             yaw_reversals_per_min: per_min(yaw),
             stick_jumps_per_min: Some(per_min(self.jumps)),
+            pictures: Some(self.pictures),
             unlit_pictures: (task.dark && self.pictures > 0).then(|| self.unlit_pictures as f64 / self.pictures as f64),
             contacts: Crashes::default(),
             fastest_contact_m_s: 0.0,
@@ -381,6 +401,7 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::testing::hovering_frame;
+    use spandrel_model::shipped::SCENARIOS;
 
     fn reversals(positions: &[f64]) -> usize {
         let mut counter = ReversalCounter::default();
@@ -399,10 +420,51 @@ mod tests {
 
     #[test]
     fn exact_jumps_are_between_two_deflected_positions() {
-        let is = |before, after| is_jump((before, after));
+        let is = |before, after| is_jump((before, after), 1.0 / 30.0);
         assert!(is(0.2, 0.31) && is(-0.3, 0.3) && is(0.9, 0.5));
         assert!(!is(0.2, 0.29), "a movement");
         assert!(!is(0.0, 0.5) && !is(0.5, 0.01), "a key pressed, and a stick let go");
+        assert!(!is_jump((0.2, 0.4), 0.1), "the same speed as 0.07 in a thirtieth of a second");
+    }
+
+    #[test]
+    fn exact_jumps_are_counted_between_consecutive_frames_only() {
+        let jumps = |indices: [usize; 3]| {
+            let mut samples = NearSamples::default();
+            for (index, forward) in indices.into_iter().zip([0.2, 0.6, 0.3]) {
+                samples.add_sticks((index, [forward, 0.5, 0.0, 0.9]), 1.0 / 30.0);
+            }
+            samples.jumps
+        };
+        assert_eq!(jumps([7, 8, 9]), 2);
+        assert_eq!(jumps([7, 8, 300]), 1, "the drone was elsewhere in between");
+    }
+
+    /// Returns for how many frames a flight counts for the path of the straight drill: `aside` frames within 8 m of its start, then
+    /// `on` frames along the path, then as many aside of its end.
+    fn counted(aside: usize, on: usize) -> (usize, bool) {
+        let (_, text) = SCENARIOS.iter().find(|(name, _)| *name == "drill-straight-line").unwrap();
+        let scenario = spandrel_model::scenario::read("drill", text, &|file| Err(file.to_owned())).unwrap();
+        let paths = ReferencePaths::new(&scenario);
+        let points = paths.path(0).points_m();
+        let (start, end) = (points[0], points[points.len() - 1]);
+        let along = |share: f64| start + (end - start) * share;
+        let inward = (end - start) * (1.0 / (end - start).norm());
+        let at = |point: Vec3<Enu>, sign: f64| point + inward * sign + Vec3::new(0.0, 0.0, 7.0);
+        let beside = |point, sign| std::iter::repeat_n(at(point, sign), aside);
+        let flown = (0..on).map(|k| along(k as f64 / on as f64));
+        let positions: Vec<Vec3<Enu>> = beside(start, 1.0).chain(flown).chain(beside(end, -1.0)).collect();
+        let on_path = OnPath::measure(&paths, positions.iter().copied());
+        let frames: Vec<Frame> = positions.into_iter().map(hovering_frame).collect();
+        let near = near_frames(&scenario, &frames, &paths, &on_path);
+        (near.iter().flatten().count(), near[0].is_some())
+    }
+
+    #[test]
+    fn exact_ways_to_and_from_a_flown_path_do_not_count() {
+        assert_eq!(counted(5, 20), (20, false));
+        assert_eq!(counted(20, 10), (50, true), "mostly flown beside the path");
+        assert_eq!(counted(20, 0), (40, true));
     }
 
     #[test]
