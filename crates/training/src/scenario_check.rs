@@ -266,7 +266,11 @@ fn placed_defect_warnings(
     let forms = scenario.form.is_some().then(|| format!("{}: {}", source.file, text!(options.language, "check-placed-in-forms")));
     let level_key = DEFECT_LEVEL_KEYS.into_iter().find_map(|key| Some((key, difficulty_line(source.text, key)?)));
     let levels = level_key.map(|(key, line)| {
-        format!("{}:{line}: {}", source.file, text!(options.language, "check-placed-at-levels", key = format!("difficulty.{key}")))
+        format!(
+            "{}:{line}: {}",
+            source.file,
+            text!(options.language, "check-placed-at-levels", key = format!("difficulty.{key}"))
+        )
     });
     hidden.chain(forms).chain(levels).collect()
 }

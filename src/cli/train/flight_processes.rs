@@ -3,6 +3,7 @@
 use super::args::Args;
 use super::connection_info::connection_instructions;
 use super::expert_ghost::{BackgroundExpert, GhostJob};
+use super::loading::FlightStep;
 use super::offers;
 use super::window::WindowProcess;
 use crate::cli::args::{JobArgs, common_args};
@@ -67,7 +68,8 @@ pub enum FlightOutcome {
 }
 
 impl FlightProcesses {
-    /// Starts the processes. The session records when the site check was acknowledged, in µs since the Unix epoch.
+    /// Starts the processes. The session records when the site check was acknowledged, in µs since the Unix epoch. `report` gets
+    /// each step before it begins.
     ///
     /// # Errors
     /// Returns an error if files or ports are invalid.
@@ -76,7 +78,9 @@ impl FlightProcesses {
         (choice, site_check_unix_us): (&FlightChoice, Option<u64>),
         log: tracing::Level,
         language: Language,
+        report: &mut dyn FnMut(FlightStep),
     ) -> Result<Self, AppError> {
+        report(FlightStep::Job);
         let job = args.job(choice);
         let title = files::scenario(&job.scenario)?.scenario.title;
         let ghost = available_ghost(args, choice, language);
@@ -84,6 +88,7 @@ impl FlightProcesses {
         let expert_args = expert_args(&common);
         let monitor_args = [common.clone(), monitor_args(args, choice, site_check_unix_us)].concat();
         let with_port = |port: String| [monitor_args.clone(), vec!["--port".to_owned(), port]].concat();
+        report(FlightStep::Monitor);
         let mut monitor = Child::start("monitor", &with_port(args.ports.monitor_port().to_string()))?;
         let announced = monitor.read_announcement()?;
         let session = PathBuf::from(announced["session"].as_str().unwrap_or_default());
@@ -100,6 +105,7 @@ impl FlightProcesses {
             vec!["--files".into(), files, "--after-crash".into(), "scenario".into()],
             vec!["--practice-controls".into(), practice_controls(choice).into()],
         ];
+        report(FlightStep::Simulator);
         let mut sim = Child::start("sim", &sim_args.concat())?;
         let ports = sim.read_announcement()?;
         let listen = args.ports.listen;

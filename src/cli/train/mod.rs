@@ -7,6 +7,7 @@ mod assigned;
 mod connection_info;
 mod expert_ghost;
 mod flight_processes;
+mod loading;
 mod offers;
 mod picture_jobs;
 mod planned;

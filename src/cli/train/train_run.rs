@@ -5,6 +5,7 @@ use super::args::{Args, camera_file};
 use super::assigned;
 use super::expert_ghost::BackgroundExpert;
 use super::flight_processes::{FlightOutcome, FlightProcesses};
+use super::loading::FlightStep;
 use super::offers;
 use super::picture_jobs::PictureJobs;
 use super::planned;
@@ -202,6 +203,11 @@ impl<'a> TrainRun<'a> {
         if let Some(window) = &mut self.window {
             window.send(message);
         }
+    }
+
+    /// Shows in the window what takes time.
+    fn report(&mut self, step: FlightStep) {
+        self.send_to_window(&step.message(self.language()));
     }
 
     /// Shows in the window why a flight cannot start.
@@ -456,7 +462,9 @@ impl<'a> TrainRun<'a> {
             let expert = self.end_vehicle();
             let acknowledged = self.site_check.as_ref().filter(|check| check.choice == *choice);
             let site_check_unix_us = acknowledged.map(|check| check.acknowledged_unix_us);
-            let mut flight = FlightProcesses::start(self.args, (choice, site_check_unix_us), self.log, self.language())?;
+            let language = self.language();
+            let mut report = |step: FlightStep| self.window.iter_mut().for_each(|window| window.send(&step.message(language)));
+            let mut flight = FlightProcesses::start(self.args, (choice, site_check_unix_us), self.log, language, &mut report)?;
             expert.into_iter().for_each(|expert| flight.take_over_expert(expert));
             self.station.iter_mut().for_each(|station| station.report_start(choice));
             self.serve(flight.port("payload_port"));
@@ -474,6 +482,7 @@ impl<'a> TrainRun<'a> {
                 // After a stop request, the user cannot choose another flight.
                 self.window.take().into_iter().for_each(WindowProcess::close);
             }
+            self.report(FlightStep::Scores);
             flight.end_session();
             let session = flight.session().to_path_buf();
             if matches!(outcome, FlightOutcome::Restart) {
@@ -507,10 +516,12 @@ impl<'a> TrainRun<'a> {
             self.pictures.draw_video(session, self.args.video);
         }
         if open {
+            self.report(FlightStep::Record);
             let database = planned::open_records(&self.args.sessions);
             if result.is_ok() {
                 planned::import(session, database.as_ref());
             }
+            self.report(FlightStep::NextFlights);
             let trainees = self.offer_from(choice, database.as_ref());
             let language = self.language();
             let web = self.web.as_ref().map(|web| web.server.address());

@@ -258,6 +258,12 @@ window-flight-loading-ground = ground
 window-flight-loading-plants = plants
 window-flight-loading-water = water
 window-flight-loading-graphics = graphics
+window-loading-job = job
+window-loading-monitor = site and monitor
+window-loading-simulator = simulator
+window-loading-scores = telemetry
+window-loading-record = record of the session
+window-loading-next-flights = next flights
 window-flight-waiting-seed = Connected to the vehicle. Waiting for the session's seed ...
 window-flight-waiting-vehicle = Waiting for the vehicle at { $address } ...
 # Keys, at the beginning of a flight.

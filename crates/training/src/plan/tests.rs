@@ -171,7 +171,8 @@ fn exact_few_pictures_and_short_tasks_show_no_habit() {
         assert_eq!(of(rule, shorter), (true, false), "{rule}");
     }
     assert_eq!(of("too far in one task", shorter), (true, true), "a distance needs no time");
-    let one_picture: fn(&mut SessionRecord) = |record| record.tasks.iter_mut().for_each(|task| technique(task).pictures = Some(1));
+    let one_picture: fn(&mut SessionRecord) =
+        |record| record.tasks.iter_mut().for_each(|task| technique(task).pictures = Some(1));
     assert_eq!(of("pictures with the lamp off", one_picture), (true, false));
     assert_eq!(of("pictures of nothing", |record| (record.snapshots, record.hits) = (3, 0)), (true, false));
     assert_eq!(of("pictures of nothing", |record| record.defects.clear()), (true, false), "nothing to photograph");
