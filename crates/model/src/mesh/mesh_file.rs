@@ -1,6 +1,7 @@
 //! The content of a file with meshes, whatever its format.
 
 use super::Mesh;
+use super::point_cloud::PointCloud;
 use super::vectors::Point;
 
 /// Maximum size of a file or buffer, bytes (estimate: ten million triangles).
@@ -41,6 +42,8 @@ pub struct MeshFile {
     pub nodes: Vec<MeshNode>,
     /// Names of nodes that are no part of a bridge: ground, water and landing pad of an exported site.
     pub skipped: Vec<String>,
+    /// Points without triangles; a file with them has no nodes.
+    pub cloud: Option<PointCloud>,
 }
 
 /// Checks the size of a file.
