@@ -16,7 +16,7 @@ use spandrel_model::site::bridge_import::{
 use std::io::{Cursor, Seek, SeekFrom, Write};
 use std::sync::{Arc, Mutex};
 
-const MUTANTS: usize = 400;
+const MUTANTS: usize = 200;
 /// Place of the cloud in the coordinates of a map, m.
 const EASTING_NORTHING_M: [f64; 2] = [504_000.0, 4_475_000.0];
 
@@ -153,7 +153,7 @@ fn regress_truncated_and_damaged_clouds_never_cause_a_panic() {
     let mut random = RandomStream::new(6, "clouds");
     for is_compressed in [false, true] {
         let file = red_las(is_compressed, 20);
-        for length in (0..600).chain((600..file.len()).step_by(97)) {
+        for length in (0..600).step_by(7).chain((600..file.len()).step_by(97)) {
             let error = reader::read(ModelFormat::Las, "scan.laz", &file[..length], &|_| Err(String::new())).unwrap_err();
             assert!(error.starts_with("scan.laz: "), "{length}: {error}");
         }
