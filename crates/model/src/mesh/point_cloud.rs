@@ -1,7 +1,6 @@
 //! A point cloud: points of a surface without triangles, in the file's axes and units.
 
-use super::mesh_file::check_vertex;
-use super::vectors::Point;
+use super::vectors::{Point, check_vertex};
 use super::vertex_colors::Color;
 
 /// Maximum number of points.
