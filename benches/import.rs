@@ -10,6 +10,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::mesh::part_shapes::{ConcaveShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
+use spandrel_model::mesh::voxel_surface::CloudLimits;
 use spandrel_model::scenario::bridges::element_map::ElementMap;
 use spandrel_model::scenario::bridges::model::Model;
 use spandrel_model::scenario::{Bridge, BridgeKind, Scenario};
@@ -93,6 +94,7 @@ fn imported(file: &[u8]) -> Vec<u8> {
         turn_deg: 0.0,
         default_element: Some(Element::MasonryArch),
         limits: ShapeLimits { tolerance_m: 0.01, concave: ConcaveShape::Mesh },
+        cloud: CloudLimits::default(),
     };
     let none = |_: &str| Err("no file".to_owned());
     let source =

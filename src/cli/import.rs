@@ -7,6 +7,7 @@ use spandrel_model::elements::Element;
 use spandrel_model::mesh::mesh_file::MAX_FILE_BYTES;
 use spandrel_model::mesh::part_shapes::{ConcaveShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
+use spandrel_model::mesh::voxel_surface::{CloudLimits, CloudReport, VOXEL_RANGE_M};
 use spandrel_model::scenario::bridges::element_map::ElementMap;
 use spandrel_model::scenario::{self, MAX_NAME_CHARS, is_name, is_name_char};
 use spandrel_model::site::bridge_import::{
@@ -20,8 +21,8 @@ const MAX_LISTED: usize = 20;
 
 /// Import a bridge from a 3D model
 ///
-/// Reads a glTF 2.0 file (.glb, or .gltf with its buffers), a Wavefront OBJ file or a PLY file, cleans its meshes, converts them to
-/// parts that collide (convex solids where they fit, their own triangles elsewhere) and writes a folder with the parts
+/// Reads a glTF 2.0 file (.glb, or .gltf with its buffers), a Wavefront OBJ file, a PLY file or a point cloud (.las, .laz, .xyz, .pts, or
+/// .ply without faces), cleans its meshes, converts them to parts that collide (convex solids where they fit, their own triangles elsewhere) and writes a folder with the parts
 /// (bridge.glb), their elements (elements.toml) and a job (scenario.toml) that you can check, fly and edit. A part's element comes
 /// from the elements file, or from `element` in the extras of its node. If parts have no element, it prints an elements file to
 /// start from. It prints a table of the parts: triangles (and those removed as degenerate or repeated), connected pieces, open
@@ -34,11 +35,12 @@ Examples:
   spandrel import bridge.glb --out my-bridge/ --elements elements.toml
   spandrel import bridge.gltf --out my-bridge/ --scale 0.001 --up z    a model in millimeters with z up
   spandrel import scan.ply --out my-bridge/ --up z --element 144       a mesh from photogrammetry
+  spandrel import scan.laz --out my-bridge/ --element 107 --voxel-size 0.2
   spandrel check my-bridge/scenario.toml
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Model (.glb, .gltf, .obj or .ply)
+    /// Model (.glb, .gltf, .obj, .ply, .las, .laz, .xyz or .pts)
     #[arg(value_name = "FILE")]
     file: String,
     /// Folder for the bridge; created if it does not exist
@@ -50,16 +52,16 @@ pub struct Args {
     /// Factor from the model's units to meters
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
     scale: f64,
-    /// Axis of the model that points up: y (as glTF requires) or z
-    #[arg(long, value_name = "AXIS", default_value = "y", value_parser = parse_up)]
-    up: UpAxis,
+    /// Axis of the model that points up: y (as glTF requires) or z [default: z for .las, .laz, .xyz and .pts, y for other files]
+    #[arg(long, value_name = "AXIS", value_parser = parse_up)]
+    up: Option<UpAxis>,
     /// Origin of the bridge axes: center (the middle of the deck's upper surface), or a point X,Y,Z in the model, in m with z up
     #[arg(long, value_name = "X,Y,Z|center", default_value = "center", value_parser = parse_origin, allow_hyphen_values = true)]
     origin: ModelOrigin,
     /// Counterclockwise turn of the model, seen from above, that makes the deck run along x, degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true, value_parser = parse_turn)]
     turn: f64,
-    /// Elements by the names of parts (TOML)
+    /// Elements by the names of parts, and by boxes (TOML)
     #[arg(long, value_name = "FILE")]
     elements: Option<String>,
     /// Element number of all parts that have no other
@@ -72,6 +74,12 @@ pub struct Args {
     /// along the longest side
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=400))]
     voxels: Option<u32>,
+    /// Size of the voxels that replace a point cloud, m
+    #[arg(long, value_name = "M", default_value_t = CloudLimits::default().voxel_m, value_parser = parse_voxel_size)]
+    voxel_size: f64,
+    /// Minimum number of points in a group of touching voxels of a point cloud; smaller groups are left out as outliers
+    #[arg(long, value_name = "N", default_value_t = CloudLimits::default().min_points as u32, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    min_points: u32,
     /// Replace the files of an earlier import
     #[arg(long)]
     overwrite: bool,
@@ -107,7 +115,7 @@ fn import(args: &Args) -> Result<ImportedBridge, AppError> {
     let bytes = files::read_limited(path, MAX_FILE_BYTES);
     let bytes = bytes.map_err(|error| AppError::invalid(format!("{}: cannot read: {error}", args.file)))?;
     let elements = match &args.elements {
-        Some(file) => ElementMap::read(file, &files::read(Path::new(file))?)?,
+        Some(file) => ElementMap::read_for_import(file, &files::read(Path::new(file))?)?,
         None => ElementMap::default(),
     };
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -115,7 +123,7 @@ fn import(args: &Args) -> Result<ImportedBridge, AppError> {
     let options = ImportOptions {
         name: bridge_name(args, path)?,
         scale: args.scale,
-        up: args.up,
+        up: args.up.unwrap_or(if format.is_z_up() { UpAxis::Z } else { UpAxis::Y }),
         origin: args.origin,
         turn_deg: args.turn,
         default_element: args.element.map(Element::from_number),
@@ -123,6 +131,7 @@ fn import(args: &Args) -> Result<ImportedBridge, AppError> {
             tolerance_m: args.tolerance,
             concave: args.voxels.map_or(ConcaveShape::Mesh, |resolution| ConcaveShape::Voxels { resolution }),
         },
+        cloud: CloudLimits { voxel_m: args.voxel_size, min_points: args.min_points as usize },
     };
     let source = ImportSource { file: &args.file, format, bytes: &bytes, load: &load, elements };
     let progress = ProgressLog::start("importing the bridge");
@@ -215,14 +224,19 @@ fn summary(report: &ImportReport) -> String {
     let sum = |count: fn(&PartReport) -> usize| report.parts.iter().map(count).sum::<usize>();
     let (low, high) = report.extent.whole;
     let [x, y, z] = [0, 1, 2].map(|k: usize| high[k] - low[k]);
+    let [ox, oy, oz] = report.origin_m;
     let deviation_mm = 1000.0 * report.parts.iter().map(|part| part.deviation_m).fold(0.0, f64::max);
     let mut text = format!(
-        "\n{} parts with {} triangles became {} shapes; {} holes; largest deviation {deviation_mm:.1} mm; {x:.1} x {y:.1} x {z:.1} m\n",
+        "\n{} parts with {} triangles became {} shapes; {} holes; largest deviation {deviation_mm:.1} mm; {x:.1} x {y:.1} x {z:.1} m\n\
+         origin of the bridge axes in the model: --origin {ox:.3},{oy:.3},{oz:.3}\n",
         report.parts.len(),
         sum(|part| part.triangles),
         sum(|part| part.shapes) - report.lost_parts,
         sum(|part| part.holes),
     );
+    if let Some(cloud) = report.cloud {
+        text.push_str(&cloud_text(cloud));
+    }
     let mut note = |words: String| text.push_str(&format!("note: {words}\n"));
     let flat = sum(|part| part.flat_pieces);
     if flat > 0 {
@@ -238,11 +252,24 @@ fn summary(report: &ImportReport) -> String {
     if lines > 0 {
         note(format!("{lines} sets of points or lines were ignored"));
     }
+    for (number, corners) in &report.empty_boxes {
+        note(format!("elements file, row {number}: no triangle has its middle in box_m = {corners} and in no earlier row"));
+    }
     let (deck_low, deck_high) = report.extent.deck;
     if deck_high[1] - deck_low[1] > deck_high[0] - deck_low[0] {
         note("the deck is longer along y than along x: set --turn 90 if it runs along y".to_owned());
     }
     text
+}
+
+fn cloud_text(cloud: CloudReport) -> String {
+    let CloudReport { left_out, points, outliers, voxels, filled } = cloud;
+    let kept = points - outliers;
+    let all = points + left_out;
+    format!(
+        "{kept} of {all} points in {voxels} voxels; left out: {outliers} outliers and {left_out} ground, water, noise or withheld points; \
+         {filled} more voxels fill voids and contacts\n"
+    )
 }
 
 fn parse_scale(text: &str) -> Result<f64, String> {
@@ -253,6 +280,12 @@ fn parse_scale(text: &str) -> Result<f64, String> {
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     let tolerance: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     if (0.001..=1.0).contains(&tolerance) { Ok(tolerance) } else { Err("allowed: 0.001 to 1".to_owned()) }
+}
+
+fn parse_voxel_size(text: &str) -> Result<f64, String> {
+    let size: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    let (least, most) = VOXEL_RANGE_M;
+    if (least..=most).contains(&size) { Ok(size) } else { Err(format!("allowed: {least} to {most}")) }
 }
 
 fn parse_turn(text: &str) -> Result<f64, String> {

@@ -1,11 +1,14 @@
 """Bridges that trimesh writes are imported, checked, exported again and flown by the synthetic trainee.
 
-trimesh is an independent writer and reader of glTF files: it builds the bridges, and it measures the parts that come out."""
+trimesh is an independent writer and reader of glTF files: it builds the bridges, and it measures the parts that come out. laspy is an
+independent writer of point clouds."""
 
 import json
 import math
 import pathlib
+import subprocess
 
+import laspy
 import numpy
 import pytest
 import trimesh
@@ -19,6 +22,8 @@ VOLUME_TOLERANCE = 1e-3
 MIN_ON_PATH = 0.9
 # The largest volume of the hulls that replace a scan, as a multiple of its volume (estimate).
 MAX_HULL_VOLUME = 1.3
+# Points of a scanned bridge, and the size of its voxels in m: about four points in each voxel.
+SCAN_POINTS, VOXEL_M = 60_000, 0.25
 
 
 @pytest.fixture(scope="module")
@@ -180,3 +185,89 @@ def test_val_a_scan_keeps_the_colors_of_its_vertices(tmp_path):
     assert done.returncode == 0, done.stderr
     [part] = trimesh.load(tmp_path / "glb" / "bridge.glb", force="scene").geometry.values()
     assert (part.visual.vertex_attributes["color"][part.vertices[:, 0] < 0.0][:, :3] == 188).all()
+
+
+def gltf_json(file):
+    """Returns the description in a binary glTF file."""
+    content = file.read_bytes()
+    return content[20 : 20 + int.from_bytes(content[12:16], "little")]
+
+
+def test_val_boxes_divide_a_scan_into_parts_with_its_whole_surface(tmp_path):
+    """One block of 12 m, whose ends are piers and whose middle is a deck; the rest of it is what the default says."""
+    block = rough_block()
+    elements = tmp_path / "elements.toml"
+    row = '[[elements]]\nelement = {}\nbox_m = [[{}, -2, -9], [{}, 2, 9]]\nname = "{}"\n'
+    rows = [(205, -7, -4, "left"), (12, -5, 3, "deck"), (210, 20, 30, "away")]
+    elements.write_text("format = 1\n" + "".join(row.format(*values) for values in rows), encoding="utf-8")
+    whole, _ = import_scan(tmp_path / "whole", block)
+    first, parts = import_scan(tmp_path / "parts", block, "--elements", elements)
+    assert first[:2] == ["left", "205"] and first[8] == "mesh", first
+    assert len(parts) == 3 and math.isclose(sum(part.area for part in parts), block.area, rel_tol=VOLUME_TOLERANCE)
+    scene = trimesh.load(tmp_path / "parts" / "scan" / "bridge.glb", force="scene")
+    document = json.loads(gltf_json(tmp_path / "parts" / "scan" / "bridge.glb"))
+    tags = {node["name"]: node["extras"]["element"] for node in document["nodes"] if "mesh" in node}
+    assert tags == {"left": 205, "deck": 12, "mesh": 144}
+    # Triangles are at most 0.25 m long, and one of them can reach over the border on each side.
+    ends = {name: scene.geometry[scene.graph[name][1]].bounds[:, 0] for name in tags}
+    assert abs(ends["left"][1] + 4.0) < 0.3 and abs(ends["deck"][0] + 4.0) < 0.3 and abs(ends["deck"][1] - 3.0) < 0.3, ends
+    checked = spandrel.run("check", str(tmp_path / "parts" / "scan" / "scenario.toml"))
+    assert "1 file valid" in checked and whole[7] == "1", checked
+    # A job whose elements file has boxes would leave them without effect.
+    job = tmp_path / "parts" / "scan" / "elements.toml"
+    job.write_text(elements.read_text(encoding="utf-8"), encoding="utf-8")
+    command = [spandrel.PROGRAM, "check", str(tmp_path / "parts" / "scan" / "scenario.toml")]
+    refused = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    problems = refused.stdout + refused.stderr
+    assert refused.returncode == 2 and "elements[].box_m" in problems and "spandrel import --elements" in problems, problems
+
+
+def test_val_empty_boxes_are_noted(tmp_path):
+    elements = tmp_path / "elements.toml"
+    elements.write_text("format = 1\n[[elements]]\nelement = 12\nbox_m = [[20, -2, -9], [30, 2, 9]]\n", encoding="utf-8")
+    (tmp_path / "scan.ply").write_bytes(rough_block().export(file_type="ply"))
+    options = ("--up", "z", "--element", 144, "--elements", elements)
+    done = spandrel_import(tmp_path / "scan.ply", "--out", tmp_path / "out", *options)
+    assert done.returncode == 0, done.stderr
+    assert "note: elements file, row 1: no triangle has its middle in box_m = [[20.0, -2.0, -9.0], [30.0, 2.0, 9.0]]" in done.stdout
+
+
+def test_val_a_point_cloud_becomes_a_solid_that_contains_its_points(tmp_path, measured):
+    """A scan of a slab bridge in coordinates of a map, with 100 points far away from it and 100 on the ground."""
+    scene, _ = bridge_scene(tagged=False)
+    surface = scene.to_geometry()
+    points, _ = trimesh.sample.sample_surface(surface, SCAN_POINTS, seed=1)
+    stray = numpy.random.default_rng(1).uniform((-40, -40, 20), (40, 40, 60), (100, 3))
+    ground = numpy.array([(x, 0.0, -1.0) for x in numpy.linspace(-20, 20, 100)])
+    everything = numpy.concatenate([points, stray, ground]) + (504_000.0, 4_475_000.0, 180.0)
+    header = laspy.LasHeader(point_format=2, version="1.2")
+    header.offsets, header.scales = (504_000.0, 4_475_000.0, 180.0), (0.001, 0.001, 0.001)
+    cloud = laspy.LasData(header)
+    cloud.x, cloud.y, cloud.z = everything.T
+    cloud.red = numpy.full(len(everything), 65535)
+    cloud.green = cloud.blue = numpy.zeros(len(everything))
+    cloud.classification = [1] * (SCAN_POINTS + 100) + [2] * 100
+    imports = {}
+    for name in ("scan.las", "scan.laz"):
+        cloud.write(str(tmp_path / name))
+        out = tmp_path / name.replace(".", "-")
+        done = spandrel_import(tmp_path / name, "--out", out, "--element", 12, "--voxel-size", VOXEL_M, "--name", "scan")
+        assert done.returncode == 0, done.stderr
+        imports[name] = (out / "bridge.glb").read_bytes()
+    assert imports["scan.las"] == imports["scan.laz"]
+    assert f"{SCAN_POINTS} of {SCAN_POINTS + 200} points" in done.stdout and "100 outliers and 100 ground" in done.stdout, done.stdout
+    loaded = trimesh.load(out / "bridge.glb", force="scene")
+    [part] = loaded.geometry.values()
+    assert (part.visual.vertex_attributes["color"][:, :3] == (255, 0, 0)).all()
+    part.merge_vertices()
+    assert part.is_watertight and part.is_winding_consistent
+    voxels = part.volume / VOXEL_M**3
+    measured(f"cloud of {SCAN_POINTS} points: {len(part.faces)} triangles around {voxels:.0f} voxels")
+    assert math.isclose(voxels, round(voxels), abs_tol=0.01 * voxels / 100), voxels
+    # The corners of the voxels are near the surface that was scanned, and the extent is that of the scan.
+    size = numpy.ptp(points, axis=0)[[0, 2, 1]]
+    assert ((part.extents - size > -1e-3) & (part.extents - size < 2 * VOXEL_M)).all(), (part.extents, size)
+    checked = spandrel.run("check", str(out / "scenario.toml"))
+    assert "1 file valid" in checked, checked
+    coarse = spandrel_import(tmp_path / "scan.laz", "--out", tmp_path / "none", "--element", 12, "--voxel-size", 2)
+    assert coarse.returncode == 2 and "allowed: 0.02 to 1" in coarse.stderr, coarse.stderr

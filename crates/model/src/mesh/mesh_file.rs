@@ -1,7 +1,9 @@
 //! The content of a file with meshes, whatever its format.
 
 use super::Mesh;
-use super::vectors::Point;
+use super::point_cloud::PointCloud;
+
+pub(super) use super::vectors::check_vertex;
 
 /// Maximum size of a file or buffer, bytes (estimate: ten million triangles).
 pub const MAX_FILE_BYTES: usize = 512 * 1024 * 1024;
@@ -9,8 +11,6 @@ pub const MAX_FILE_BYTES: usize = 512 * 1024 * 1024;
 pub const MAX_TRIANGLES: usize = 5_000_000;
 /// Maximum number of nodes with a mesh.
 pub const MAX_NODES: usize = 50_000;
-/// Maximum distance of a vertex from the origin of the file, in units of the file.
-const MAX_COORDINATE: f64 = 1e7;
 /// Maximum length of a part's name, characters.
 const MAX_NAME_CHARS: usize = 100;
 
@@ -41,6 +41,8 @@ pub struct MeshFile {
     pub nodes: Vec<MeshNode>,
     /// Names of nodes that are no part of a bridge: ground, water and landing pad of an exported site.
     pub skipped: Vec<String>,
+    /// Points without triangles; a file with them has no nodes.
+    pub cloud: Option<PointCloud>,
 }
 
 /// Checks the size of a file.
@@ -49,18 +51,6 @@ pub struct MeshFile {
 /// Returns the size and the allowed one if it is too large.
 pub(super) fn check_file_size(bytes: &[u8]) -> Result<(), String> {
     if bytes.len() <= MAX_FILE_BYTES { Ok(()) } else { Err(format!("{} bytes (allowed: at most {MAX_FILE_BYTES})", bytes.len())) }
-}
-
-/// Checks the coordinates of a vertex.
-///
-/// # Errors
-/// Returns the vertex and the allowed coordinates if one is too large or no number.
-pub(super) fn check_vertex(number: usize, vertex: Point) -> Result<(), String> {
-    if vertex.iter().all(|value| value.abs() <= MAX_COORDINATE) {
-        Ok(())
-    } else {
-        Err(format!("position {number} = {vertex:?} (allowed: numbers of at most {MAX_COORDINATE:.0})"))
-    }
 }
 
 /// Returns a name that fits in one line of a report and has no characters with a meaning in patterns of names. `index` is for a node

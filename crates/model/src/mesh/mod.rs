@@ -1,7 +1,8 @@
-//! Triangle meshes of bridge models: reads them from glTF, OBJ and PLY files, welds and splits them into connected parts, and turns the parts into
+//! Triangle meshes of bridge models: reads them from glTF, OBJ and PLY files, makes them of point clouds, welds and splits them into connected parts, and turns the parts into
 //! shapes for collisions. All lengths are in meters.
 
 mod bsp;
+mod cloud_reader;
 pub mod faces;
 pub mod gltf_reader;
 pub mod hull;
@@ -10,12 +11,15 @@ mod obj_reader;
 pub mod part_shapes;
 pub mod plane_solid;
 mod ply_reader;
+pub mod point_cloud;
 pub mod reader;
 pub mod surface_mesh;
 mod texture;
 pub mod topology;
 pub mod vectors;
 pub mod vertex_colors;
+mod voxel_grid;
+pub mod voxel_surface;
 pub mod weld;
 
 use vectors::{Point, cross, dot, norm, sub};
@@ -55,6 +59,20 @@ impl Mesh {
         let first = self.vertices_m.len() as u32;
         self.vertices_m.extend(&other.vertices_m);
         self.triangles.extend(other.triangles.iter().map(|triangle| triangle.map(|k| first + k)));
+    }
+
+    /// Returns a mesh of some of the triangles, with the vertices that they use in the same order.
+    #[must_use]
+    pub fn part(&self, triangles: &[[u32; 3]]) -> Self {
+        let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+        used.sort_unstable();
+        used.dedup();
+        // All vertices of the triangles are among those used.
+        let number = |k: u32| used.partition_point(|other| *other < k) as u32;
+        Self {
+            vertices_m: used.iter().map(|k| self.vertices_m[*k as usize]).collect(),
+            triangles: triangles.iter().map(|triangle| triangle.map(number)).collect(),
+        }
     }
 
     /// Returns whether the mean thickness of a closed mesh, twice its volume divided by its surface, is more than this, m.

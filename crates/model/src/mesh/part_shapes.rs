@@ -42,6 +42,8 @@ pub enum Method {
     Mesh,
     /// Approximated by the hulls of groups of voxels.
     Voxels,
+    /// The surface of the voxels that contain the points of a cloud.
+    Points,
 }
 
 impl Method {
@@ -54,6 +56,7 @@ impl Method {
             Self::Cut => "cut",
             Self::Mesh => "mesh",
             Self::Voxels => "voxels",
+            Self::Points => "points",
         }
     }
 }

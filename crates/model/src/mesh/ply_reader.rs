@@ -1,6 +1,8 @@
-//! Reads the faces of PLY files, text and binary, as written by photogrammetry programs. A file has one part, which is named `mesh`.
+//! Reads PLY files, text and binary, as written by photogrammetry programs. A file with faces has one part, which is named `mesh`; one without
+//! them is a point cloud.
 
 use super::mesh_file::{MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check_vertex};
+use super::point_cloud::PointCloud;
 use super::vertex_colors::of_srgb;
 use super::{Mesh, vectors::Point};
 use ply_rs_bw::parser::{Parser, Reader};
@@ -115,12 +117,23 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
     let Elements { vertices, polygons, are_colored } = read_elements(bytes).map_err(|words| problem(&words))?;
     let mesh = mesh(&vertices, &polygons).map_err(|words| problem(&words))?;
     if mesh.triangles.is_empty() {
-        let words = "a point cloud has no surface; make a mesh of it first, for example by Poisson reconstruction in CloudCompare or MeshLab";
-        return Err(problem(&format!("no triangles (allowed: at least one face; {words})")));
+        return cloud(&vertices, are_colored).map_err(|words| problem(&words));
     }
     let colors = if are_colored { vertices.iter().map(|vertex| of_srgb(vertex.color)).collect() } else { Vec::new() };
     let node = MeshNode { name: NAME.to_owned(), element: None, is_surface: false, mesh, colors, ignored_primitives: 0 };
-    Ok(MeshFile { nodes: vec![node], skipped: Vec::new() })
+    Ok(MeshFile { nodes: vec![node], ..MeshFile::default() })
+}
+
+/// Returns the vertices of a file without faces.
+fn cloud(vertices: &[Vertex], are_colored: bool) -> Result<MeshFile, String> {
+    let mut cloud = PointCloud::default();
+    for vertex in vertices {
+        cloud.push(vertex.place, are_colored.then(|| of_srgb(vertex.color)))?;
+    }
+    if cloud.is_empty() {
+        return Err("no vertices (allowed: at least one)".to_owned());
+    }
+    Ok(MeshFile { cloud: Some(cloud), ..MeshFile::default() })
 }
 
 /// Returns the position of a color in [`COLORS`]; `None` for other properties.
@@ -241,7 +254,9 @@ mod tests {
         let other = HEADER.replace("end_header", "element foo 5000001\nproperty uchar a\nend_header");
         assert!(error(&format!("{other}{DATA}")).contains("5000001 elements foo (allowed: at most 5000000)"));
         let cloud = HEADER.replace("face 4", "face 0");
-        assert!(error(&format!("{cloud}{}", &DATA[..32])).contains("no triangles"));
+        let content = read("scan.ply", format!("{cloud}{}", &DATA[..32]).as_bytes()).unwrap();
+        assert_eq!((content.nodes.len(), content.cloud.map(|cloud| cloud.len())), (0, Some(4)));
+        assert_eq!(error(&cloud.replace("vertex 4", "vertex 0")), "scan.ply: no vertices (allowed: at least one)");
         for length in 0..DATA.len() {
             let _ = read("scan.ply", format!("{HEADER}{}", &DATA[..length]).as_bytes());
         }

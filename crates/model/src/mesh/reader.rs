@@ -1,7 +1,7 @@
 //! Reads a model in any of the formats that can be imported.
 
 use super::mesh_file::{BufferLoader, MeshFile};
-use super::{gltf_reader, obj_reader, ply_reader};
+use super::{cloud_reader, gltf_reader, obj_reader, ply_reader};
 
 /// Format of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,13 +10,17 @@ pub enum ModelFormat {
     Gltf,
     /// Wavefront OBJ.
     Obj,
-    /// PLY, text or binary.
+    /// PLY, text or binary: a mesh, or a point cloud.
     Ply,
+    /// Point cloud in the ASPRS format, compressed or not.
+    Las,
+    /// Point cloud as text.
+    PointText,
 }
 
 impl ModelFormat {
     /// Names of the formats for messages.
-    pub const NAMES: &'static str = ".glb, .gltf, .obj, .ply";
+    pub const NAMES: &'static str = ".glb, .gltf, .obj, .ply, .las, .laz, .xyz, .pts";
 
     /// Returns the format of a file by the end of its name; `None` for any other file.
     #[must_use]
@@ -25,7 +29,18 @@ impl ModelFormat {
             "glb" | "gltf" => Some(Self::Gltf),
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
+            "las" | "laz" => Some(Self::Las),
+            "xyz" | "pts" => Some(Self::PointText),
             _ => None,
+        }
+    }
+
+    /// Returns whether z points up in files of this format, as in all coordinates of maps.
+    #[must_use]
+    pub const fn is_z_up(self) -> bool {
+        match self {
+            Self::Las | Self::PointText => true,
+            Self::Gltf | Self::Obj | Self::Ply => false,
         }
     }
 }
@@ -39,5 +54,7 @@ pub fn read(format: ModelFormat, file: &str, bytes: &[u8], load: BufferLoader) -
         ModelFormat::Gltf => gltf_reader::read(file, bytes, load),
         ModelFormat::Obj => obj_reader::read(file, bytes, load),
         ModelFormat::Ply => ply_reader::read(file, bytes),
+        ModelFormat::Las => cloud_reader::read_las(file, bytes),
+        ModelFormat::PointText => cloud_reader::read_text(file, bytes),
     }
 }

@@ -78,15 +78,11 @@ pub fn components(mesh: &Mesh) -> Vec<Component> {
 
 /// Extracts a part. `flipped` states which triangles must change their direction to face the same side.
 fn component(mesh: &Mesh, members: &[u32], flipped: &[Option<bool>]) -> Component {
-    let mut used: Vec<u32> = members.iter().flat_map(|k| mesh.triangles[*k as usize]).collect();
-    used.sort_unstable();
-    used.dedup();
-    let mut part = Mesh { vertices_m: used.iter().map(|k| mesh.vertices_m[*k as usize]).collect(), triangles: Vec::new() };
-    for k in members {
-        // All vertices of the triangles are among those used.
-        let [a, b, c] = mesh.triangles[*k as usize].map(|vertex| used.partition_point(|other| *other < vertex) as u32);
-        part.triangles.push(if flipped[*k as usize] == Some(true) { [a, c, b] } else { [a, b, c] });
-    }
+    let turned = members.iter().map(|k| {
+        let [a, b, c] = mesh.triangles[*k as usize];
+        if flipped[*k as usize] == Some(true) { [a, c, b] } else { [a, b, c] }
+    });
+    let mut part = mesh.part(&turned.collect::<Vec<_>>());
     if part.volume_m3() < 0.0 {
         part.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
     }

@@ -3,6 +3,9 @@
 /// A point or a vector, m.
 pub type Point = [f64; 3];
 
+/// Maximum distance of a vertex from the origin of the file, in units of the file.
+const MAX_COORDINATE: f64 = 1e7;
+
 /// Returns a - b.
 #[must_use]
 pub fn sub(a: Point, b: Point) -> Point {
@@ -71,4 +74,16 @@ pub fn middle(points: &[Point]) -> Point {
 pub fn polygon_area_vector(corners: &[Point]) -> Point {
     (2..corners.len())
         .fold([0.0; 3], |sum, k| add_scaled(sum, cross(sub(corners[k - 1], corners[0]), sub(corners[k], corners[0])), 1.0))
+}
+
+/// Checks the coordinates of a vertex.
+///
+/// # Errors
+/// Returns the vertex and the allowed coordinates if one is too large or no number.
+pub(super) fn check_vertex(number: usize, vertex: Point) -> Result<(), String> {
+    if vertex.iter().all(|value| value.abs() <= MAX_COORDINATE) {
+        Ok(())
+    } else {
+        Err(format!("position {number} = {vertex:?} (allowed: numbers of at most {MAX_COORDINATE:.0})"))
+    }
 }

@@ -4,6 +4,7 @@ use spandrel_model::elements::ElementUnit;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::mesh::part_shapes::{ConcaveShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
+use spandrel_model::mesh::voxel_surface::CloudLimits;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::element_map::ElementMap;
 use spandrel_model::scenario::bridges::model::Model;
@@ -31,6 +32,7 @@ fn imported_again(site: &Site) -> ImportedBridge {
         turn_deg: 0.0,
         default_element: None,
         limits: ShapeLimits { tolerance_m: 0.01, concave: ConcaveShape::Mesh },
+        cloud: CloudLimits::default(),
     };
     let none = |_: &str| Err("no file".to_owned());
     let source =

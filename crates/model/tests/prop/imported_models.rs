@@ -11,6 +11,7 @@ use spandrel_model::mesh::part_shapes::{ConcaveShape, PartShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
 use spandrel_model::mesh::surface_mesh::SurfaceMesh;
 use spandrel_model::mesh::vectors::Point;
+use spandrel_model::mesh::voxel_surface::CloudLimits;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::element_map::ElementMap;
 use spandrel_model::scenario::bridges::model::{Model, ModelPart};
@@ -89,6 +90,7 @@ fn options() -> ImportOptions {
         turn_deg: 0.0,
         default_element: Some(Element::RcDeck),
         limits: ShapeLimits { tolerance_m: 0.01, concave: ConcaveShape::Mesh },
+        cloud: CloudLimits::default(),
     }
 }
 
@@ -522,6 +524,196 @@ fn imported_boxes(parts: &[(&str, u16, usize)]) -> ImportedBridge {
         text.nodes.push(json!({ "name": name, "mesh": mesh, "extras": { "element": element } }));
     }
     imported(text.json().to_string().as_bytes(), &options()).unwrap()
+}
+
+/// Imports the slab on two piers with an elements file.
+fn painted(elements: &str, options: &ImportOptions) -> Result<ImportedBridge, ImportError> {
+    let bytes = slab_on_two_piers().to_string();
+    let none = |_: &str| Err("no file".to_owned());
+    let elements = ElementMap::read_for_import("elements.toml", elements).unwrap();
+    import(&ImportSource { file: "m.gltf", format: ModelFormat::Gltf, bytes: bytes.as_bytes(), load: &none, elements }, options)
+}
+
+/// Returns an elements file of rows of an element, a box and further keys.
+fn boxes(rows: &[(u16, [Point; 2], &str)]) -> String {
+    let row = |(element, corners, keys): &(u16, [Point; 2], &str)| {
+        format!("[[elements]]\nelement = {element}\nbox_m = {corners:?}\n{keys}\n")
+    };
+    format!("format = 1\n{}", rows.iter().map(row).collect::<String>())
+}
+
+#[test]
+fn exact_a_box_assigns_its_element_to_whole_parts() {
+    let around = |x: f64| [[x - 1.0, -3.0, -9.5], [x + 1.0, 3.0, -0.5]];
+    // The first row is the one that counts. Both piers keep their names and their shapes.
+    let rows = [(205, around(-11.5), ""), (215, around(-11.5), ""), (210, around(50.0), "name = \"away\"")];
+    let bridge = painted(&boxes(&rows), &options()).unwrap();
+    assert_eq!(names_and_elements(&bridge), [("slab", 12), ("pier-1", 205), ("pier-2", 210)].map(|(a, b)| (a.to_owned(), b)));
+    let empty: Vec<usize> = bridge.report.empty_boxes.iter().map(|(row, _)| *row).collect();
+    assert_eq!(empty, [2, 3], "{:?}", bridge.report.empty_boxes);
+    assert_eq!(bridge.report.empty_boxes[1].1, "[[49.0, -3.0, -9.5], [51.0, 3.0, -0.5]]");
+    let plain = imported(slab_on_two_piers().to_string().as_bytes(), &options()).unwrap();
+    let shapes = |bridge: &ImportedBridge| model(bridge).parts().iter().map(|part| part.shape.clone()).collect::<Vec<_>>();
+    assert_eq!(shapes(&bridge), shapes(&plain));
+}
+
+/// Returns a plate of 20 x 4 cells of 1 m, 1 m thick, around the origin, as a binary PLY file with z up.
+fn plate_ply(is_colored: bool) -> Vec<u8> {
+    let mut mesh = Mesh::default();
+    for (x, y) in (0..20).flat_map(|x| (0..4).map(move |y| (f64::from(x) - 10.0, f64::from(y) - 2.0))) {
+        mesh.append(&Mesh::of_box([x, y, -1.0], [x + 1.0, y + 1.0, 0.0]));
+    }
+    // Without the walls between the cells.
+    let is_wall = |triangle: &&[u32; 3]| {
+        let normal = mesh.area_vector(**triangle);
+        let at = mesh.vertices_m[triangle[0] as usize];
+        (normal[0] != 0.0 && at[0].abs() != 10.0) || (normal[1] != 0.0 && at[1].abs() != 2.0)
+    };
+    let triangles: Vec<[u32; 3]> = mesh.triangles.iter().filter(|triangle| !is_wall(triangle)).copied().collect();
+    let colors = if is_colored { "property uchar red\nproperty uchar green\nproperty uchar blue\n" } else { "" };
+    let mut file = format!(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{colors}\
+         element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        mesh.vertices_m.len(),
+        triangles.len()
+    )
+    .into_bytes();
+    for vertex in &mesh.vertices_m {
+        file.extend(vertex.iter().flat_map(|value| (*value as f32).to_le_bytes()));
+        if is_colored {
+            file.extend([255, 0, (vertex[0] + 10.0) as u8]);
+        }
+    }
+    for triangle in triangles {
+        file.push(3);
+        file.extend(triangle.iter().flat_map(|k| (*k as i32).to_le_bytes()));
+    }
+    file
+}
+
+fn import_plate(is_colored: bool, elements: &str, options: &ImportOptions) -> Result<ImportedBridge, ImportError> {
+    let bytes = plate_ply(is_colored);
+    let none = |_: &str| Err("no file".to_owned());
+    let elements = ElementMap::read_for_import("elements.toml", elements).unwrap();
+    let options = ImportOptions { up: UpAxis::Z, ..options.clone() };
+    import(&ImportSource { file: "m.ply", format: ModelFormat::Ply, bytes: &bytes, load: &none, elements }, &options)
+}
+
+#[test]
+fn exact_boxes_divide_a_single_mesh_and_lose_nothing_of_it() {
+    let whole = import_plate(true, "format = 1\n", &options()).unwrap();
+    assert_eq!(whole.report.parts[0].holes, 0);
+    let rows = [
+        (205, [[-20.0, -3.0, -3.0], [-6.0, 3.0, 3.0]], "name = \"pier\""),
+        // It overlaps the first one, which counts.
+        (210, [[-20.0, -3.0, -3.0], [-4.0, 3.0, 3.0]], ""),
+    ];
+    let bridge = import_plate(true, &boxes(&rows), &options()).unwrap();
+    let expected = [("pier", 205), ("mesh-2", 210), ("mesh", 12)];
+    assert_eq!(names_and_elements(&bridge), expected.map(|(name, element)| (name.to_owned(), element)));
+    let parts = model(&bridge);
+    let spans: Vec<[f64; 2]> = parts
+        .parts()
+        .iter()
+        .map(|part| {
+            [f64::min as fn(f64, f64) -> f64, f64::max]
+                .map(|pick| part.shape.corners_m().iter().map(|p| p[0]).reduce(pick).unwrap())
+        })
+        .collect();
+    assert_eq!(spans, [[-10.0, -6.0], [-6.0, -4.0], [-4.0, 10.0]], "the origin is the one without boxes");
+    // The surfaces together are the surface of the whole, and nothing closes the cuts.
+    let triangles = |bridge: &ImportedBridge| -> Vec<[[i64; 3]; 3]> {
+        let model = model(bridge);
+        let corners = |part: &ModelPart| {
+            let mesh = part.shape.mesh().into_owned();
+            mesh.triangles
+                .iter()
+                .map(|triangle| mesh.corners(*triangle).map(|p| p.map(|value| (value * 8.0) as i64)))
+                .collect::<Vec<_>>()
+        };
+        let mut all: Vec<_> = model
+            .parts()
+            .iter()
+            .flat_map(corners)
+            .map(|mut corners| {
+                corners.sort_unstable();
+                corners
+            })
+            .collect();
+        all.sort_unstable();
+        all
+    };
+    let all = triangles(&bridge);
+    assert_eq!(all.len(), 2 * (2 * 80 + 2 * 20 + 2 * 4));
+    assert!(all.windows(2).all(|pair| pair[0] != pair[1]));
+    for (part, holes) in parts.parts().iter().zip([1, 2, 1]) {
+        let PartShape::Mesh(surface) = &part.shape else { panic!("{}: not a mesh", part.name) };
+        assert!(!surface.is_closed() && surface.colors().len() == surface.mesh().vertices_m.len());
+        assert_eq!(bridge.report.parts.iter().find(|row| row.name == part.name).unwrap().holes, holes);
+        let is_own = |(vertex, color): (&Point, &[u8; 3])| color[0] == 255 && (vertex[0] < -9.0 || color[2] < 10);
+        assert!(surface.mesh().vertices_m.iter().zip(surface.colors()).all(is_own));
+    }
+    assert_eq!(bridge, import_plate(true, &boxes(&rows), &options()).unwrap(), "the same every time");
+    let none = |_: &str| Err("no file".to_owned());
+    let elements = ElementMap::read("elements.toml", &bridge.elements).unwrap();
+    let again = ImportSource { file: "bridge.glb", format: ModelFormat::Gltf, bytes: &bridge.model, load: &none, elements };
+    let fixed = ImportOptions { origin: ModelOrigin::Point([0.0; 3]), ..options() };
+    let again = import(&again, &fixed).unwrap();
+    let content = |bridge: &ImportedBridge| {
+        let part = |part: &ModelPart| {
+            let mut corners = part.shape.corners_m().to_vec();
+            corners.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            (part.name.clone(), part.element, corners)
+        };
+        model(bridge).parts().iter().map(part).collect::<Vec<_>>()
+    };
+    assert_eq!(content(&again), content(&bridge), "an import of the divided parts loses none of their surface");
+    assert_eq!(job(&bridge).bridges.len(), 1);
+}
+
+#[test]
+fn exact_boxes_are_in_the_axes_of_a_bridge_imported_without_them() {
+    // The requested origin is 5 m along x; the first turn makes x run along the file's y.
+    let options = ImportOptions { origin: ModelOrigin::Point([5.0, 0.0, 0.0]), turn_deg: 90.0, ..options() };
+    let rows = [(205, [[-3.0, -15.5, -2.0], [3.0, -9.0, 1.0]], "name = \"end\"")];
+    let whole = import_plate(false, "format = 1\n", &options).unwrap();
+    let (low, high) = model(&whole).extent().whole;
+    assert!((low[1] + 15.0).abs() < 1e-5 && (high[1] - 5.0).abs() < 1e-5, "{low:?} {high:?}");
+    let bridge = import_plate(false, &boxes(&rows), &options).unwrap();
+    let model = model(&bridge);
+    let end = model.parts().iter().find(|part| part.name == "end").unwrap();
+    assert!(end.shape.corners_m().iter().all(|p| p[1] < -9.0 + 1e-5));
+    assert!(bridge.scenario.contains("is the point 5.000, 0.000, 0.000 of the model"), "{}", bridge.scenario);
+    // A box of 6 x 40 m about the middle, turned across the bridge, is the same as one of 40 x 6 m.
+    let along = painted_spans("box_m = [[-20, -3, -9], [20, 3, 9]]\nbox_turn_deg = 90");
+    let across = painted_spans("box_m = [[-3, -20, -9], [3, 20, 9]]");
+    assert_eq!(along, across);
+    assert_eq!(along[0], ("mesh-1".to_owned(), -3.0, 3.0));
+}
+
+/// Returns the name, and the extent along x, of the parts of the plate that a row divides.
+fn painted_spans(row: &str) -> Vec<(String, f64, f64)> {
+    let elements = format!("format = 1\n[[elements]]\nelement = 205\n{row}\n");
+    let bridge = import_plate(false, &elements, &options()).unwrap();
+    let span = |part: &ModelPart| {
+        let x = |pick: fn(f64, f64) -> f64| part.shape.corners_m().iter().map(|p| p[0]).reduce(pick).unwrap();
+        (part.name.clone(), x(f64::min), x(f64::max))
+    };
+    model(&bridge).parts().iter().map(span).collect()
+}
+
+#[test]
+fn regress_the_rest_of_a_divided_part_without_an_element_is_listed() {
+    let nothing = ImportOptions { default_element: None, ..options() };
+    let rows = [(205, [[-20.0, -3.0, -3.0], [0.0, 3.0, 3.0]], "name = \"pier\"")];
+    let Err(ImportError::UnknownElements { parts, elements }) = import_plate(false, &boxes(&rows), &nothing) else {
+        panic!("it was imported")
+    };
+    assert_eq!(parts, ["mesh"]);
+    let row = elements.split("[[elements]]").nth(1).unwrap().replace("element = 0", "element = 12");
+    let both = format!("{}[[elements]]{row}", boxes(&rows));
+    let bridge = import_plate(false, &both, &nothing).unwrap();
+    assert_eq!(names_and_elements(&bridge), [("pier", 205), ("mesh", 12)].map(|(name, element)| (name.to_owned(), element)));
 }
 
 /// Returns name and element number of each part, by the elements file alone.

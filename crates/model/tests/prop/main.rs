@@ -3,5 +3,6 @@
 
 mod causes;
 mod error_messages;
+mod imported_clouds;
 mod imported_models;
 mod mutated_files;

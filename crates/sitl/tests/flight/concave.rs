@@ -5,6 +5,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::mesh::part_shapes::{ConcaveShape, Method, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
+use spandrel_model::mesh::voxel_surface::CloudLimits;
 use spandrel_model::scenario::bridges::element_map::ElementMap;
 use spandrel_model::scenario::bridges::model::Model;
 use spandrel_model::scenario::{Bridge, BridgeKind, Scenario};
@@ -60,6 +61,7 @@ fn site(text: &str) -> Site {
         turn_deg: 0.0,
         default_element: Some(Element::RcPierWall),
         limits: ShapeLimits { tolerance_m: 0.01, concave: ConcaveShape::Mesh },
+        cloud: CloudLimits::default(),
     };
     let none = |_: &str| Err("no file".to_owned());
     let elements = ElementMap::default();

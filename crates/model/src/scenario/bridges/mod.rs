@@ -14,6 +14,7 @@ pub mod element_map;
 pub mod girder;
 pub mod masonry_arch;
 pub mod model;
+pub mod paint_box;
 pub mod path;
 mod plan_polygon;
 pub mod prestressed;

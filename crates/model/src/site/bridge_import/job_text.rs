@@ -67,13 +67,18 @@ pub(super) fn check_reach(low: Point, high: Point) -> Result<(), String> {
     Err(format!("the bridge and the landing pad reach {reach_m:.1} m from the origin (allowed: at most {max_m:.1} m; {words})"))
 }
 
-/// Returns the text of the job. The bridge's x axis points east.
-pub(super) fn scenario_toml(name: &str, parts: &[ModelPart], extent: &ModelExtent) -> String {
+/// Returns the text of the job. The bridge's x axis points east. `origin_m` is the point of the model at the origin of the bridge axes, if
+/// it is not the middle of the deck's upper surface.
+pub(super) fn scenario_toml(name: &str, parts: &[ModelPart], extent: &ModelExtent, origin_m: Option<Point>) -> String {
     let (low, high) = extent.whole;
     let center_up_m = -low[2] - EMBEDMENT_M;
     let west_m = low[0] - STAND_OFF_M - PAD_DISTANCE_M;
     let size_m = ((2.0 * (reach_m(low, high) + SURROUNDINGS_M) / 100.0).ceil() * 100.0).min(MAX_TERRAIN_M);
     let has_defects = parts.iter().any(|part| !part.element.permitted_defects().is_empty());
+    let origin = origin_m.map_or_else(
+        || "the middle of the deck's upper surface".to_owned(),
+        |[x, y, z]| format!("the point {x:.3}, {y:.3}, {z:.3} of the model"),
+    );
     let mut text = format!(
         "# A job at an imported bridge, written by `spandrel import`. Change it as you like; every key is described in the documentation.\n\
          format = 1\nname = \"{name}\"\ntitle = \"Inspection of {name}\"\n\n\
@@ -83,7 +88,7 @@ pub(super) fn scenario_toml(name: &str, parts: &[ModelPart], extent: &ModelExten
          # The landing pad is beyond the start of the bridge, so that no flight to or from it crosses a path.\n\
          [ground_team]\npad_m = [{west_m:.2}, 0.0, 0.0]\ninspector_m = [{inspector_m:.2}, -6.0, -0.05]\n\
          truck_m = [{truck_m:.2}, -9.0, -0.05]\nhome_radius_m = 5.0\n\n\
-         # The origin of the bridge axes is the middle of the deck's upper surface; x points along the deck, y to its left, z up.\n\
+         # The origin of the bridge axes is {origin}; x points along the deck, y to its left, z up.\n\
          [[bridges]]\nname = \"{name}\"\ntype = \"model\"\ncentre_m = [0.0, 0.0, {center_up_m:.3}]\nheading_deg = 90.0\n\n\
          [bridges.model]\nfile = \"{model}\"\nelements = \"{elements}\"\n",
         spacing_m = (size_m / 200.0).max(4.0),

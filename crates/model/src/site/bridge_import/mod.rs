@@ -3,17 +3,19 @@
 
 mod element_suggestions;
 mod job_text;
+mod painting;
 mod part_amounts;
 mod part_report;
 
 use crate::elements::Element;
 use crate::math;
-use crate::mesh::mesh_file::{BufferLoader, MeshNode};
-use crate::mesh::part_shapes::{PartShape, ShapeLimits, part_shapes};
+use crate::mesh::mesh_file::{BufferLoader, MeshFile, MeshNode};
+use crate::mesh::part_shapes::{Method, PartShape, ShapeLimits, part_shapes};
 use crate::mesh::reader::{self, ModelFormat};
 use crate::mesh::topology::components;
 use crate::mesh::vectors::{Point, bounds, sub};
 use crate::mesh::vertex_colors::ColorsByPlace;
+use crate::mesh::voxel_surface::{CloudLimits, CloudReport, cloud_surface};
 use crate::mesh::weld::weld;
 use crate::scenario::bridges::element_map::{ElementMap, lower_case};
 use crate::scenario::bridges::model::{MAX_REACH_M, ModelExtent, ModelPart, from_gltf_axes};
@@ -23,12 +25,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 pub use job_text::{ELEMENTS_FILE, MODEL_FILE, SCENARIO_FILE};
+use painting::ImportPart;
 pub use part_report::{ImportReport, PartReport};
 
 /// Minimum length of the longest side of a bridge, m (estimate: shorter ones have another unit).
 const MIN_LENGTH_M: f64 = 2.0;
 /// Maximum length of a node's name, characters (20 fewer than the readers' limit, for the numbers of its shapes).
 const MAX_NAME_CHARS: usize = 80;
+
+/// Stands for an element that is not known yet.
+const UNKNOWN: Element = Element::Unlisted(0);
 
 /// Axis of the model that points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +71,8 @@ pub struct ImportOptions {
     pub default_element: Option<Element>,
     /// Limits of the conversion to shapes.
     pub limits: ShapeLimits,
+    /// How a point cloud becomes a surface.
+    pub cloud: CloudLimits,
 }
 
 /// A file to import.
@@ -124,37 +132,58 @@ impl std::error::Error for ImportError {}
 /// # Errors
 /// See [`ImportError`].
 pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<ImportedBridge, ImportError> {
-    let mut content = reader::read(source.format, source.file, source.bytes, source.load).map_err(ImportError::Invalid)?;
-    unique_names(&mut content.nodes);
-    let elements = elements(&content.nodes, source, options)?;
-    content.nodes.iter_mut().for_each(|node| to_bridge_axes(node, options));
-    check_size(source.file, &content.nodes)?;
-    check_reach(source.file, &content.nodes, &elements, options)?;
-    let mut names: BTreeSet<String> = content.nodes.iter().map(|node| lower_case(&node.name).collect()).collect();
+    let content = reader::read(source.format, source.file, source.bytes, source.load).map_err(ImportError::Invalid)?;
+    let skipped = content.skipped.clone();
+    let (mut nodes, cloud) = nodes_in_bridge_axes(source.file, content, options)?;
+    unique_names(nodes.iter_mut().map(|node| &mut node.name));
+    let known = elements(&nodes, source, options);
+    if !source.elements.has_boxes() {
+        check_known(nodes.iter().zip(&known).map(|(node, element)| (node.name.as_str(), *element)))?;
+    }
+    check_size(source.file, nodes.iter().flat_map(|node| node.mesh.vertices_m.iter().copied()))?;
+    let fixed = fixed_origin(&nodes, &known, source, options);
+    let mut painted = painting::paint(nodes, &known, &source.elements, fixed.unwrap_or_default());
+    unique_names(painted.parts.iter_mut().map(|part| &mut part.node.name));
+    check_known(painted.parts.iter().map(|part| (part.node.name.as_str(), part.element)))?;
+    check_reach(source.file, &painted.parts, fixed)?;
+    let mut names: BTreeSet<String> = painted.parts.iter().map(|part| lower_case(&part.node.name).collect()).collect();
     let mut rows = Vec::new();
     let mut parts = Vec::new();
-    for (node, element) in content.nodes.iter().zip(elements) {
-        let (mut report, shapes) = convert(node, element, options.limits);
+    for part in painted.parts {
+        let (mut report, shapes) = convert(&part, options.limits);
         if shapes.len() > 1 {
-            report.name = prefix(&node.name, &mut names);
+            report.name = prefix(&part.node.name, &mut names);
         }
-        parts.extend(named(&report.name, element, shapes));
+        parts.extend(named(&report.name, report.element, shapes));
+        if cloud.is_some() {
+            (report.method, report.deviation_m) = (Some(Method::Points), options.cloud.deviation_m());
+        }
         rows.push(report);
     }
     if parts.is_empty() {
         return Err(ImportError::Invalid(format!("{}: no part has a volume (allowed: at least one solid)", source.file)));
     }
-    move_to_origin(&mut parts, options);
+    let origin = fixed.unwrap_or_else(|| center(ModelExtent::of(&parts).deck));
+    parts.iter_mut().for_each(|part| part.shape.move_corners(|corner| sub(corner, origin)));
     let made = parts.len();
     let parts: Vec<ModelPart> =
         parts.into_iter().filter_map(|part| Some(ModelPart { shape: part.shape.sound()?, ..part })).collect();
     let extent = ModelExtent::of(&parts);
-    let report = ImportReport { parts: rows, lost_parts: made - parts.len(), skipped: content.skipped, extent };
+    let report = ImportReport {
+        parts: rows,
+        lost_parts: made - parts.len(),
+        skipped,
+        cloud,
+        empty_boxes: painted.empty_boxes,
+        origin_m: turn(-options.turn_deg)(origin),
+        extent,
+    };
     let model = parts_glb(parts.iter());
     let model = model.map_err(|error| ImportError::Invalid(format!("{}: {error}", source.file)))?;
     let elements = report.elements_toml(&parts);
     check_elements(source.file, &elements, &parts)?;
-    Ok(ImportedBridge { model, elements, scenario: job_text::scenario_toml(&options.name, &parts, &extent), report })
+    let scenario = job_text::scenario_toml(&options.name, &parts, &extent, fixed.map(|_| report.origin_m));
+    Ok(ImportedBridge { model, elements, scenario, report })
 }
 
 /// Checks that the elements file assigns its own element to each part.
@@ -167,17 +196,18 @@ fn check_elements(file: &str, elements: &str, parts: &[ModelPart]) -> Result<(),
     Err(ImportError::Invalid(format!("{file}: {words}")))
 }
 
-/// Gives each node a name of its own. Upper and lower case are the same, as in patterns of names.
-fn unique_names(nodes: &mut [MeshNode]) {
+/// Makes each name unique. Upper and lower case are the same, as in patterns of names.
+fn unique_names<'a>(names: impl Iterator<Item = &'a mut String>) {
     let lower = |name: &str| lower_case(name).collect::<String>();
     let mut uses: BTreeMap<String, usize> = BTreeMap::new();
-    for node in nodes.iter_mut() {
-        let short: String = node.name.chars().take(MAX_NAME_CHARS).collect();
-        short.trim_end().clone_into(&mut node.name);
-        uses.entry(lower(&node.name)).or_insert(0);
+    let mut all: Vec<&mut String> = names.collect();
+    for name in &mut all {
+        let short: String = name.chars().take(MAX_NAME_CHARS).collect();
+        short.trim_end().clone_into(name);
+        uses.entry(lower(name)).or_insert(0);
     }
-    for node in nodes {
-        let first = node.name.clone();
+    for name in all {
+        let first = name.clone();
         loop {
             let count = uses.entry(lower(&first)).or_insert(0);
             *count += 1;
@@ -187,7 +217,7 @@ fn unique_names(nodes: &mut [MeshNode]) {
             let candidate = format!("{first}-{count}");
             if let Entry::Vacant(free) = uses.entry(lower(&candidate)) {
                 free.insert(1);
-                node.name = candidate;
+                *name = candidate;
                 break;
             }
         }
@@ -216,45 +246,65 @@ fn prefix(name: &str, names: &mut BTreeSet<String>) -> String {
     }
 }
 
-/// Returns the element of each node: by the elements file, by the node's tag, or by default.
-fn elements(nodes: &[MeshNode], source: &ImportSource, options: &ImportOptions) -> Result<Vec<Element>, ImportError> {
+/// Returns the element of each node without regard to boxes: by the elements file, by the node's tag, or by default.
+fn elements(nodes: &[MeshNode], source: &ImportSource, options: &ImportOptions) -> Vec<Option<Element>> {
     let element = |node: &MeshNode| {
         let tagged = || node.element.map(Element::from_number);
         source.elements.element_of(&node.name).or_else(tagged).or(options.default_element)
     };
-    let found: Vec<Option<Element>> = nodes.iter().map(element).collect();
-    let unknown = nodes.iter().zip(&found).filter(|(_, element)| element.is_none());
-    let parts: Vec<String> = unknown.map(|(node, _)| node.name.clone()).collect();
-    if !parts.is_empty() {
-        let elements = element_suggestions::elements_toml(&parts);
-        return Err(ImportError::UnknownElements { parts, elements });
-    }
-    Ok(found.into_iter().flatten().collect())
+    nodes.iter().map(element).collect()
 }
 
-/// Converts a node's vertices to meters, with z up and x along the deck.
-fn to_bridge_axes(node: &mut MeshNode, options: &ImportOptions) {
-    let turned = turn(options);
-    for vertex in &mut node.mesh.vertices_m {
+/// Checks that each part has an element.
+fn check_known<'a>(parts: impl Iterator<Item = (&'a str, Option<Element>)>) -> Result<(), ImportError> {
+    let parts: Vec<String> = parts.filter(|(_, element)| element.is_none()).map(|(name, _)| name.to_owned()).collect();
+    if parts.is_empty() {
+        return Ok(());
+    }
+    let elements = element_suggestions::elements_toml(&parts);
+    Err(ImportError::UnknownElements { parts, elements })
+}
+
+/// Returns the nodes of a file in meters, with z up and x along the deck. A point cloud becomes a node that is named `cloud`.
+fn nodes_in_bridge_axes(
+    file: &str,
+    content: MeshFile,
+    options: &ImportOptions,
+) -> Result<(Vec<MeshNode>, Option<CloudReport>), ImportError> {
+    let turned = turn(options.turn_deg);
+    let place = |p: Point| {
         let upright = match options.up {
-            UpAxis::Y => from_gltf_axes(*vertex),
-            UpAxis::Z => *vertex,
+            UpAxis::Y => from_gltf_axes(p),
+            UpAxis::Z => p,
         };
-        *vertex = turned(upright.map(|value| value * options.scale));
-    }
+        turned(upright.map(|value| value * options.scale))
+    };
+    let Some(cloud) = content.cloud else {
+        let mut nodes = content.nodes;
+        nodes.iter_mut().flat_map(|node| &mut node.mesh.vertices_m).for_each(|vertex| *vertex = place(*vertex));
+        return Ok((nodes, None));
+    };
+    let points = cloud.points().map(|(p, color)| (place(p), color));
+    check_size(file, points.clone().map(|(p, _)| p))?;
+    let surface = cloud_surface(points, cloud.is_colored(), options.cloud);
+    let surface = surface.map_err(|words| ImportError::Invalid(format!("{file}: {words}")))?;
+    let report = CloudReport { left_out: cloud.left_out, ..surface.report };
+    let (name, mesh, colors) = ("cloud".to_owned(), surface.mesh, surface.colors);
+    let node = MeshNode { name, element: None, is_surface: true, mesh, colors, ignored_primitives: 0 };
+    Ok((vec![node], Some(report)))
 }
 
-/// Returns the function that turns a point about the vertical as requested.
-fn turn(options: &ImportOptions) -> impl Fn(Point) -> Point {
-    let (s, c) = math::sin_cos(options.turn_deg.to_radians());
+/// Returns the function that turns a point counterclockwise about the vertical.
+fn turn(turn_deg: f64) -> impl Fn(Point) -> Point {
+    let (s, c) = math::sin_cos(turn_deg.to_radians());
     // Without a turn, the point keeps its bits.
-    let is_turned = options.turn_deg != 0.0;
+    let is_turned = turn_deg != 0.0;
     move |[x, y, z]| if is_turned { [c * x - s * y, s * x + c * y, z] } else { [x, y, z] }
 }
 
-fn check_size(file: &str, nodes: &[MeshNode]) -> Result<(), ImportError> {
-    let extent = bounds(nodes.iter().flat_map(|node| node.mesh.vertices_m.iter().copied()));
-    let length_m = extent.map_or(0.0, |(low, high)| (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max));
+/// Checks the length of the model along x, y and z.
+fn check_size(file: &str, vertices_m: impl Iterator<Item = Point>) -> Result<(), ImportError> {
+    let length_m = bounds(vertices_m).map_or(0.0, |(low, high)| (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max));
     if (MIN_LENGTH_M..=MAX_REACH_M).contains(&length_m) {
         return Ok(());
     }
@@ -263,24 +313,26 @@ fn check_size(file: &str, nodes: &[MeshNode]) -> Result<(), ImportError> {
 }
 
 /// Checks that a job at the bridge fits on the terrain, before the parts are converted, which may take long.
-fn check_reach(file: &str, nodes: &[MeshNode], elements: &[Element], options: &ImportOptions) -> Result<(), ImportError> {
-    let extent = ModelExtent::around(nodes.iter().zip(elements).map(|(node, element)| (*element, &node.mesh.vertices_m[..])));
-    let origin = origin(extent.deck, options);
+fn check_reach(file: &str, parts: &[ImportPart], fixed: Option<Point>) -> Result<(), ImportError> {
+    let lists = parts.iter().flat_map(|part| part.vertices_m().map(|list| (part.element.unwrap_or(UNKNOWN), list)));
+    let extent = ModelExtent::around(lists);
+    let origin = fixed.unwrap_or_else(|| center(extent.deck));
     let [low, high] = [extent.whole.0, extent.whole.1].map(|corner| sub(corner, origin));
     job_text::check_reach(low, high).map_err(|words| ImportError::Invalid(format!("{file}: {words}")))
 }
 
-/// Cleans a node's mesh and converts it to shapes.
-fn convert(node: &MeshNode, element: Element, limits: ShapeLimits) -> (PartReport, Vec<PartShape>) {
+/// Cleans a part's mesh and converts it to shapes.
+fn convert(part: &ImportPart, limits: ShapeLimits) -> (PartReport, Vec<PartShape>) {
+    let ImportPart { node, kept, .. } = part;
     let welded = weld(&node.mesh);
     let pieces = components(&welded.mesh);
-    let mut report = PartReport::new(node, element, &welded, &pieces);
+    let mut report = PartReport::new(part, &welded, &pieces);
     let mut shapes = Vec::new();
     let colors = (!node.colors.is_empty()).then(|| ColorsByPlace::new(&node.mesh.vertices_m, &node.colors));
     for piece in &pieces {
         match part_shapes(piece, limits) {
             Some(mut converted) => {
-                report.add(&converted);
+                report.add(converted.method, converted.deviation_m);
                 if let Some(colors) = &colors {
                     converted.parts.iter_mut().for_each(|part| part.set_colors(colors));
                 }
@@ -289,6 +341,8 @@ fn convert(node: &MeshNode, element: Element, limits: ShapeLimits) -> (PartRepor
             None => report.flat_pieces += 1,
         }
     }
+    kept.iter().for_each(|_| report.add(Method::Mesh, 0.0));
+    shapes.extend(kept.iter().cloned().map(PartShape::Mesh));
     report.shapes = shapes.len();
     (report, shapes)
 }
@@ -303,17 +357,21 @@ fn named(name: &str, element: Element, shapes: Vec<PartShape>) -> Vec<ModelPart>
     shapes.into_iter().enumerate().map(part).collect()
 }
 
-/// Returns the requested origin of the bridge axes: a point in the model with z up and x along the deck, m. `deck` is the bounding box of
-/// the deck.
-fn origin((low, high): (Point, Point), options: &ImportOptions) -> Point {
+/// Returns the origin of the bridge axes, a point in the model with z up and x along the deck, m, if it doesn't depend on the parts: the
+/// requested point or, with boxes, the middle of the deck's upper surface without regard to them, so that boxes can be measured at a
+/// bridge that was imported without them.
+fn fixed_origin(nodes: &[MeshNode], known: &[Option<Element>], source: &ImportSource, options: &ImportOptions) -> Option<Point> {
     match options.origin {
-        ModelOrigin::Center => [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), high[2]],
-        ModelOrigin::Point(point) => turn(options)(point),
+        ModelOrigin::Point(point) => Some(turn(options.turn_deg)(point)),
+        ModelOrigin::Center if source.elements.has_boxes() => {
+            let lists = nodes.iter().zip(known).map(|(node, element)| (element.unwrap_or(UNKNOWN), &node.mesh.vertices_m[..]));
+            Some(center(ModelExtent::around(lists).deck))
+        }
+        ModelOrigin::Center => None,
     }
 }
 
-/// Moves the parts so that the origin of the bridge axes is at the requested point.
-fn move_to_origin(parts: &mut [ModelPart], options: &ImportOptions) {
-    let origin = origin(ModelExtent::of(parts).deck, options);
-    parts.iter_mut().for_each(|part| part.shape.move_corners(|corner| sub(corner, origin)));
+/// Returns the middle of the upper side of a bounding box.
+fn center((low, high): (Point, Point)) -> Point {
+    [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), high[2]]
 }

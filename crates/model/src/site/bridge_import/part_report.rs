@@ -1,10 +1,12 @@
 //! What an import found in a model: one row per part.
 
+use super::painting::ImportPart;
 use super::part_amounts::{self, PartBox};
 use crate::elements::{Element, ElementUnit};
-use crate::mesh::mesh_file::MeshNode;
-use crate::mesh::part_shapes::{Method, PartShapes};
-use crate::mesh::topology::Component;
+use crate::mesh::part_shapes::Method;
+use crate::mesh::topology::{Component, components};
+use crate::mesh::vectors::{Point, bounds};
+use crate::mesh::voxel_surface::CloudReport;
 use crate::mesh::weld::Welded;
 use crate::scenario::bridges::element_map::{matches, total_key};
 use crate::scenario::bridges::model::{ModelExtent, ModelPart};
@@ -53,23 +55,34 @@ pub struct ImportReport {
     pub lost_parts: usize,
     /// Names of nodes that are no part of a bridge.
     pub skipped: Vec<String>,
+    /// What became of a point cloud; `None` for meshes.
+    pub cloud: Option<CloudReport>,
+    /// Boxes of the elements file without a triangle: number of the row, and the box.
+    pub empty_boxes: Vec<(usize, String)>,
+    /// Origin of the bridge axes in the model after scaling, with z up and before the turn, m.
+    pub origin_m: Point,
     /// Bounding boxes in bridge axes.
     pub extent: ModelExtent,
 }
 
 impl PartReport {
-    pub(super) fn new(node: &MeshNode, element: Element, welded: &Welded, pieces: &[Component]) -> Self {
-        let (low, high) = node.mesh.bounds().unwrap_or_default();
+    pub(super) fn new(part: &ImportPart, welded: &Welded, pieces: &[Component]) -> Self {
+        let ImportPart { node, kept, .. } = part;
+        let (low, high) = bounds(part.vertices_m().flatten().copied()).unwrap_or_default();
+        let kept_triangles: usize = kept.iter().map(|surface| surface.mesh().triangles.len()).sum();
+        let open = kept.iter().filter(|surface| !surface.is_closed()).flat_map(|surface| components(surface.mesh()));
+        let (open_edges, holes) =
+            open.map(|piece| (piece.open_edges, piece.holes)).fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
         Self {
             name: node.name.clone(),
-            element,
-            triangles: node.mesh.triangles.len(),
-            dropped_triangles: welded.dropped_triangles,
+            element: part.element.unwrap_or(Element::Unlisted(0)),
+            triangles: node.mesh.triangles.len() + kept_triangles + part.dropped_triangles,
+            dropped_triangles: welded.dropped_triangles + part.dropped_triangles,
             ignored_primitives: node.ignored_primitives,
-            pieces: pieces.len(),
+            pieces: pieces.len() + kept.len(),
             flat_pieces: 0,
-            open_edges: pieces.iter().map(|piece| piece.open_edges).sum(),
-            holes: pieces.iter().map(|piece| piece.holes).sum(),
+            open_edges: open_edges + pieces.iter().map(|piece| piece.open_edges).sum::<usize>(),
+            holes: holes + pieces.iter().map(|piece| piece.holes).sum::<usize>(),
             shapes: 0,
             method: None,
             deviation_m: 0.0,
@@ -78,9 +91,10 @@ impl PartReport {
         }
     }
 
-    pub(super) fn add(&mut self, converted: &PartShapes) {
-        if self.method.is_none() || converted.deviation_m > self.deviation_m {
-            (self.method, self.deviation_m) = (Some(converted.method), converted.deviation_m);
+    /// Adds a piece that became shapes.
+    pub(super) fn add(&mut self, method: Method, deviation_m: f64) {
+        if self.method.is_none() || deviation_m > self.deviation_m {
+            (self.method, self.deviation_m) = (Some(method), deviation_m);
         }
     }
 }
