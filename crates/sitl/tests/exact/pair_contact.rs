@@ -93,7 +93,7 @@ fn exact_frontal_collision_has_the_velocities_of_impact_theory() {
 fn prop_any_collision_conserves_momentum_and_gains_no_energy() {
     let mut random = RandomStream::new(9, "collisions");
     let mut hits = 0;
-    for k in 0..600 {
+    for k in 0..1_200 {
         let mut around =
             |size: f64| Vec3::<Ned>::new(random.range(-size, size), random.range(-size, size), random.range(-size, size));
         let texts = [PHANTOM2, M30, ELIOS3];
