@@ -1,4 +1,4 @@
-//! `spandrel sim`: runs one or more vehicles at a site, each in its own thread.
+//! `spandrel sim`: runs one or more vehicles at a site: each in its own thread, or together in one thread if they share the site.
 
 use super::args::{self, JobArgs};
 use super::autopilot_args::AutopilotArgs;
@@ -19,11 +19,13 @@ use crate::io::shell::{SigningConfig, VehicleFiles, VehicleShell};
 use crate::io::signing_store::SigningStore;
 use crate::io::stop::StopRequest;
 use crate::io::store::FileStore;
+use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::endpoint::LinkKind;
+use spandrel_sitl::sim::shared_site::start_places;
 use spandrel_sitl::sim::{Sim, SimConfig};
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
@@ -42,6 +44,7 @@ Examples:
   spandrel sim                                      two bridges, real time, fixed ports
   spandrel sim --instance 1 --speed 4               a second vehicle, four times real time
   spandrel sim --instances 3                        three vehicles in one process: system IDs 1 to 3, consecutive ports
+  spandrel sim --drones 2                           two drones that see and hit each other, side by side at the landing pad
   spandrel sim --serial /dev/ttyUSB0:57600          also send telemetry over a radio, limited to its data rate
   spandrel sim --flavor ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
   spandrel sim --autopilot px4 --px4 ~/PX4-Autopilot     a real PX4 flies the aircraft
@@ -88,6 +91,12 @@ pub struct Args {
     /// specify
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=50), conflicts_with = "lockstep")]
     instances: u8,
+    /// Number of drones that share the site (1 to 8): they start side by side at the landing pad, 1 m apart, see each other
+    /// with their range finders, and collide. They have one clock, and each has its own sensor errors, failures and
+    /// battery. System IDs and ports increase as with --instances. They have the built-in autopilot, and no practice
+    /// controls
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=8), conflicts_with_all = ["lockstep", "instances"])]
+    drones: u8,
     /// Folder to serve over MAVLink FTP. Flight logs (ULog, and MCAP for Foxglove) go to its `log` subfolder, where
     /// clients can only read and delete; files that clients upload may take up to 256 MiB. With several vehicles, each
     /// has a subfolder named by its system ID [default: no files served, no logs written]
@@ -129,6 +138,13 @@ pub struct Args {
     /// input pause and resume the simulation
     #[arg(long)]
     leash: bool,
+}
+
+impl Args {
+    /// Returns the number of vehicles in this process.
+    fn vehicle_count(&self) -> u8 {
+        self.instances.max(self.drones)
+    }
 }
 
 fn seconds(text: &str) -> Result<SimTime, String> {
@@ -238,14 +254,17 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
         tracing::info!("{} with {}, seed {seed}, ports {}", scenario.name, vehicle.name, door.links.bound);
     }
-    let parts = FlightParts { args, scenario: &scenario, vehicle: &vehicle, site: &site, seed, autopilot: autopilot.as_ref() };
+    let places = start_places_of(args, &scenario, &site, &vehicle)?;
+    let parts =
+        FlightParts { args, scenario: &scenario, vehicle: &vehicle, site: &site, seed, autopilot: autopilot.as_ref(), places };
     let shell = |io: VehicleIo| {
         let mut shell = parts.shell(io, signing.clone())?;
         shell.set_pause_switch(still.clone());
         Ok(shell)
     };
     let shells = doors.into_iter().map(shell).collect::<Result<Vec<_>, AppError>>()?;
-    let flown = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
+    let end = args.end_after.unwrap_or(SimTime::NEVER);
+    let flown = if args.drones > 1 { fly_together(shells, end, &stop, progress)? } else { fly(shells, end, &stop, progress)? };
     print_results(args, flown);
     Ok(())
 }
@@ -273,6 +292,8 @@ struct FlightParts<'a> {
     site: &'a Arc<Site>,
     seed: u64,
     autopilot: Option<&'a AutopilotConfig>,
+    /// Start places of drones that share the site, in the order of their numbers.
+    places: Vec<Vec3<Enu>>,
 }
 
 impl FlightParts<'_> {
@@ -290,16 +311,18 @@ impl FlightParts<'_> {
         };
         let facts = SiteFacts { scenario: self.scenario, vehicle: self.vehicle, site: self.site };
         let speed_factor = args.speed.client_speed_factor();
-        let setup = self
-            .autopilot
-            .zip(autopilot_ports)
-            .map(|(autopilot, ports)| AutopilotSetup::new(autopilot, &facts, instance, ports, speed_factor, args.instances > 1));
+        let setup = self.autopilot.zip(autopilot_ports).map(|(autopilot, ports)| {
+            AutopilotSetup::new(autopilot, &facts, instance, ports, speed_factor, args.vehicle_count() > 1)
+        });
         let setup = setup.transpose()?;
         let site = self.site.clone();
-        let sim = match &setup {
+        let mut sim = match &setup {
             Some(setup) => Sim::with_external_autopilot(config, site, setup.interface(self.vehicle)?, setup.relay_rules()),
             None => Sim::new(config, site),
         };
+        if let Some(place_m) = self.places.get(usize::from(instance - args.ports.instance)) {
+            sim.share_site(*place_m);
+        }
         let mut shell = VehicleShell::new(sim, links, args.speed, kept, signing)?;
         if let Some(setup) = setup {
             shell.start_autopilot(setup.host()?)?;
@@ -307,17 +330,32 @@ impl FlightParts<'_> {
         if args.camera == AnnouncedComponents::Off {
             shell.core.mute_camera_heartbeat();
         }
-        if args.practice_controls == PracticeControls::Off {
+        if args.practice_controls == PracticeControls::Off || args.drones > 1 {
             shell.core.forbid_freeze_and_rewind();
         }
         Ok(shell)
     }
 }
 
+/// Returns where the drones start that share the site; empty for other vehicles.
+fn start_places_of(args: &Args, scenario: &Scenario, site: &Site, vehicle: &Vehicle) -> Result<Vec<Vec3<Enu>>, AppError> {
+    let drones = args.drones;
+    if drones == 1 {
+        return Ok(Vec::new());
+    }
+    start_places(scenario, site, vehicle, usize::from(drones)).ok_or_else(|| {
+        let (job, aircraft) = (&scenario.name, &vehicle.id);
+        AppError::invalid(format!("--drones {drones}: no level ground for {drones} {aircraft} around the landing pad of {job}"))
+    })
+}
+
 /// Returns the configuration of an external autopilot, whose files go to `temporary` by default.
 fn autopilot_config(args: &Args, temporary: Option<&Path>) -> Result<Option<AutopilotConfig>, AppError> {
     let folder = args.autopilot.autopilot_dir.as_deref().or(temporary).unwrap_or(Path::new("."));
     let config = args.autopilot.config(folder, &args.ports)?;
+    if config.is_some() && args.drones > 1 {
+        return Err(AppError::invalid("--drones: the drones have the built-in autopilot (without --autopilot)"));
+    }
     if config.as_ref().is_some_and(|config| config.flight_controller.is_some()) {
         check_real_time(args)?;
     }
@@ -381,7 +419,7 @@ struct VehicleIo {
 impl VehicleIo {
     fn open_all(args: &Args, autopilot: Option<&AutopilotConfig>) -> Result<Vec<Self>, AppError> {
         let flight_controller = autopilot.and_then(|config| config.flight_controller.as_ref());
-        (0..args.instances).map(|more| Self::open(args, more, flight_controller)).collect()
+        (0..args.vehicle_count()).map(|more| Self::open(args, more, flight_controller)).collect()
     }
 
     fn open(args: &Args, more: u8, flight_controller: Option<&SerialDevice>) -> Result<Self, AppError> {
@@ -391,11 +429,14 @@ impl VehicleIo {
             ports.serial.clear();
         }
         let instance = ports.instance;
-        let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
+        let folder =
+            |root: &PathBuf| if args.vehicle_count() == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
         let store =
             args.files.as_ref().map(folder).map(|folder| FileStore::open(&folder, args.log_space * 1_000_000)).transpose()?;
-        let params =
-            args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { with_system_id(path, instance + 1) });
+        let params = args
+            .params
+            .as_ref()
+            .map(|path| if args.vehicle_count() == 1 { path.clone() } else { with_system_id(path, instance + 1) });
         let heard = args.signing_key.as_ref().map(|key| SigningStore::for_vehicle(key, instance + 1));
         let kept = VehicleFiles { store, params: params.map(ParamFile::new), signing_store: heard };
         let mut links = Links::open(&ports.resolve(), &args.lockstep)?;
@@ -441,6 +482,24 @@ fn fly(
         });
         ended.collect::<Vec<_>>().into_iter().collect()
     })
+}
+
+/// Runs all vehicles in this thread, tick by tick, until the end.
+fn fly_together(
+    mut shells: Vec<VehicleShell>,
+    end: SimTime,
+    stop: &StopRequest,
+    mut progress: ProgressLog,
+) -> Result<Vec<VehicleResult>, AppError> {
+    let now = |shells: &[VehicleShell]| shells.first().map_or(end, |shell| shell.core.now());
+    let mut flown = Ok(());
+    while flown.is_ok() && !stop.is_requested() && now(&shells) < end {
+        flown = VehicleShell::run_together(&mut shells, end);
+        progress.report(|| format!("simulation time {}", now(&shells)));
+    }
+    progress.finish();
+    shells.iter_mut().for_each(VehicleShell::finish);
+    flown.map(|()| shells.iter().map(|shell| VehicleResult { digest: shell.core.digest(), late: shell.lateness() }).collect())
 }
 
 fn run_vehicle(

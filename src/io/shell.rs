@@ -17,7 +17,8 @@ use spandrel_mavlink::signing::{SigningKey, stamp};
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::files::job::FileError;
 use spandrel_sitl::endpoint::{LinkId, LinkKind, StorageRequest};
-use spandrel_sitl::sim::{AutopilotState, Sim, SimEvent};
+use spandrel_sitl::sim::shared_site::exchange;
+use spandrel_sitl::sim::{AutopilotState, STEP, Sim, SimEvent};
 use std::time::Duration;
 
 /// Maximum time to wait for socket data, so that the loop notices stop requests and silent peers.
@@ -170,6 +171,12 @@ impl VehicleShell {
 
     /// Sends heartbeats and discards incoming data while the simulation is paused.
     fn run_paused(&mut self) {
+        self.hold_paused();
+        self.links.wait(MAX_SOCKET_WAIT);
+    }
+
+    /// Does the same without waiting for incoming data.
+    fn hold_paused(&mut self) {
         while let Some(change) = self.links.poll() {
             if !matches!(change, LinkEvent::Bytes { .. }) {
                 self.apply(change);
@@ -181,7 +188,7 @@ impl VehicleShell {
             self.core.pause(self.paused_for.is_none());
             self.paused_for = Some(wall);
         }
-        self.wait_without_time(wall);
+        self.hold_time(wall);
     }
 
     /// Sends heartbeats while the flight is frozen. Incoming data has been handled before.
@@ -191,18 +198,18 @@ impl VehicleShell {
             self.core.pause(false);
             self.frozen_for = Some(wall);
         }
-        self.wait_without_time(wall);
+        self.hold_time(wall);
+        self.links.wait(MAX_SOCKET_WAIT);
     }
 
-    /// Sends outgoing data and waits for incoming data while simulation time is stopped.
-    fn wait_without_time(&mut self, wall: Duration) {
+    /// Sends outgoing data while simulation time is stopped.
+    fn hold_time(&mut self, wall: Duration) {
         self.send_outgoing();
         self.pacer.resync(wall, self.core.now());
         if let Some(autopilot) = &mut self.autopilot {
             // A pause is no silence of the autopilot.
             autopilot.host.note_progress(wall);
         }
-        self.links.wait(MAX_SOCKET_WAIT);
     }
 
     /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing
@@ -215,16 +222,7 @@ impl VehicleShell {
             self.run_paused();
             return Ok(());
         }
-        if self.paused_for.take().is_some() {
-            self.core.resume();
-        }
-        while let Some(change) = self.links.poll() {
-            self.apply(change);
-        }
-        self.links.drop_silent_peers();
-        if self.signing_store.is_some() {
-            self.core.set_signing_time(stamp(clock::unix_us()));
-        }
+        self.receive();
         let wall = self.stopwatch.elapsed();
         if self.run_autopilot(wall)? {
             return Ok(());
@@ -235,17 +233,64 @@ impl VehicleShell {
             let target = self.pacer.target(wall, self.core.now()).min(end);
             self.advance_to(target);
         }
-        self.run_file_jobs();
-        self.save_parameters();
-        self.save_signing_state(false);
-        self.send_outgoing();
-        self.handle_events()?;
+        self.serve_clients()?;
         if self.core.is_frozen() {
             self.run_frozen(wall);
             return Ok(());
         }
         self.frozen_for = None;
         self.wait_for_next_tick()
+    }
+
+    /// Handles incoming data, after a pause if there was one.
+    fn receive(&mut self) {
+        if self.paused_for.take().is_some() {
+            self.core.resume();
+        }
+        while let Some(change) = self.links.poll() {
+            self.apply(change);
+        }
+        self.links.drop_silent_peers();
+        if self.signing_store.is_some() {
+            self.core.set_signing_time(stamp(clock::unix_us()));
+        }
+    }
+
+    /// Serves file requests, saves what has changed, sends outgoing data and logs events.
+    fn serve_clients(&mut self) -> Result<(), AppError> {
+        self.run_file_jobs();
+        self.save_parameters();
+        self.save_signing_state(false);
+        self.send_outgoing();
+        self.handle_events()
+    }
+
+    /// Does what [`Self::run_until`] does for several vehicles that share a site and one clock: after each tick of all vehicles, they
+    /// see and touch each other. The vehicles must have no lockstep peers, external autopilots or practice controls, so that none of
+    /// them stops the time of the others.
+    ///
+    /// # Errors
+    /// Returns an error if a vehicle fails.
+    pub fn run_together(shells: &mut [Self], end: SimTime) -> Result<(), AppError> {
+        let Some(lead) = shells.first() else { return Ok(()) };
+        if lead.pause.is_paused() {
+            shells.iter_mut().for_each(Self::hold_paused);
+            if let Some(lead) = shells.first_mut() {
+                lead.links.wait(MAX_SOCKET_WAIT);
+            }
+            return Ok(());
+        }
+        shells.iter_mut().for_each(Self::receive);
+        let Some(lead) = shells.first_mut() else { return Ok(()) };
+        let mut now = lead.core.now();
+        let target = lead.pacer.target(lead.stopwatch.elapsed(), now).min(end);
+        while now + STEP <= target {
+            now += STEP;
+            shells.iter_mut().for_each(|shell| shell.advance_to(now));
+            exchange(&mut shells.iter_mut().map(|shell| &mut shell.core).collect::<Vec<_>>());
+        }
+        shells.iter_mut().try_for_each(Self::serve_clients)?;
+        shells.first_mut().map_or(Ok(()), Self::wait_for_next_tick)
     }
 
     /// Sends all outgoing data.

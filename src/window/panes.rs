@@ -7,6 +7,7 @@ use spandrel_model::frames::Enu;
 use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_model::site::aircraft_hull::{BodyProbe, probes};
 use spandrel_model::site::inspector_path::InspectorPosition;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
@@ -42,6 +43,8 @@ pub struct RenderJob {
     pub vehicle: Vehicle,
     site: Site,
     scene: Arc<Scene>,
+    /// Parts of the aircraft's hull.
+    hull: Arc<[BodyProbe]>,
 }
 
 impl RenderJob {
@@ -57,7 +60,8 @@ impl RenderJob {
         let site = Site::build(&scenario, seed);
         let scene = Arc::new(Scene::build_in_steps(&scenario, &site, &vehicle, (quality, at), report));
         report(LoadingStep::Upload);
-        Self { scenario, vehicle, site, scene }
+        let hull = probes(&vehicle).into();
+        Self { scenario, vehicle, site, scene, hull }
     }
 
     fn stage(&self) -> Stage<'_> {
@@ -246,6 +250,7 @@ impl ViewPanes {
         if !self.job.site.has_changes(&now.site_changes) {
             self.job.site = self.job.site.with_changes(now.site_changes.clone());
         }
+        self.job.site.set_live_drones(now.live_drones(&self.job.hull));
         let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (frame.feed, false), options.map);
         display.style = options.style;
         display.ghost = options.ghost;

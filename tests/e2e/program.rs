@@ -20,6 +20,8 @@ fn wire_invalid_arguments_and_files_exit_with_2_and_list_allowed_values() {
         (vec!["demo", "--seed", "-1"], "0 to 2147483647"),
         (vec!["demo", "--skill", "ace"], "expert"),
         (vec!["sim", "--flavor", "slugs"], "ardupilot"),
+        (vec!["sim", "--drones", "9"], "1..=8"),
+        (vec!["sim", "--drones", "2", "--instances", "2"], "cannot be used with"),
         (vec!["monitor", "--scenario", "no-such-job"], "two-bridges"),
         (vec!["monitor", "--vehicle", "no-such-drone"], "phantom2"),
         (vec!["monitor", "--session", "no-such-folder"], "not a session folder"),
@@ -56,6 +58,24 @@ fn wire_unsigned_network_access_causes_a_warning() {
         assert_eq!(code, Some(0), "{more:?}: {err}");
         assert_eq!(err.contains("without --signing-key"), warned, "{more:?}: {err}");
     }
+}
+
+/// Two runs of drones that share a site have the same digests, the drones' digests differ, and a single drone has the digest that it
+/// has without the option.
+#[test]
+fn wire_drones_that_share_a_site_are_reproducible() {
+    let alone = ["sim", "--scenario", "drill-hover", "--seed", "4", "--end-after", "4", "--speed", "max", "--digest"];
+    let ports = ["--ports", "ephemeral", "--gcs", "none", "--sdk", "none", "--tcp-port", "none", "--monitor-port", "none"];
+    let digests = |more: &[&str]| {
+        let (code, out, err) = code_and_output(&spandrel(&[&alone[..], &ports[..], more].concat()));
+        assert_eq!(code, Some(0), "{more:?}: {err}");
+        out.lines().map(str::to_owned).collect::<Vec<String>>()
+    };
+    let three = digests(&["--drones", "3"]);
+    assert_eq!(three, digests(&["--drones", "3"]));
+    assert!(three.len() == 3 && three[0] != three[1] && three[1] != three[2] && three[0] != three[2], "{three:?}");
+    assert_eq!(digests(&["--drones", "1"]), digests(&[]));
+    assert_eq!(three[0], digests(&[])[0], "on the ground, far from each other, the first drone is the one that flies alone");
 }
 
 #[test]

@@ -12,6 +12,7 @@ mod practice;
 mod practice_controls;
 mod radio;
 mod radio_shadow;
+pub mod shared_site;
 mod tick;
 mod wake_wind;
 
@@ -165,6 +166,8 @@ pub struct Sim {
     air: AirState,
     last_safe_hover: (Vec3<Ned>, f64),
     crashed_since: Option<SimTime>,
+    /// Contacts with other vehicles that share the site.
+    drone_contact: physics::ContactReport,
     /// Whether the current contact reached crash speed.
     hard_contact: bool,
     touched_at: SimTime,
@@ -240,6 +243,7 @@ impl Sim {
             air: AirState::STILL,
             last_safe_hover: (start, yaw),
             crashed_since: None,
+            drone_contact: physics::ContactReport::default(),
             hard_contact: false,
             touched_at: SimTime::ZERO,
             start_height_m: -start.down(),

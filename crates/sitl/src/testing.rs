@@ -167,6 +167,7 @@ impl VehicleBuilder {
         Vehicle {
             sim,
             flavor: self.flavor,
+            system_id: self.instance + 1,
             pad_height_m,
             encoder: Encoder::new(STATION_ID.0, STATION_ID.1),
             decoder: Decoder::new(),
@@ -186,6 +187,7 @@ pub struct Vehicle {
     /// Received frames, oldest first; only the most recent ones are kept.
     pub received: Vec<ReceivedFrame>,
     flavor: &'static Flavor,
+    system_id: u8,
     pad_height_m: f64,
     decoder: Decoder,
     others: VecDeque<Transmit>,
@@ -294,7 +296,7 @@ impl Vehicle {
     /// # Errors
     /// Returns an error if the command was rejected or there was no response within one second.
     pub fn command(&mut self, command: MavCmd, params: &[f32]) -> Result<(), MissedExpectation> {
-        self.request(command, &MavMessage::COMMAND_LONG(station::command(1, 1, command, station::params(params))))
+        self.request(command, &MavMessage::COMMAND_LONG(station::command(self.system_id, 1, command, station::params(params))))
     }
 
     fn request(&mut self, command: MavCmd, message: &MavMessage) -> Result<(), MissedExpectation> {
@@ -372,7 +374,7 @@ impl Vehicle {
     pub fn sticks(&mut self, forward: f64, right: f64, up: f64, yaw: f64) {
         let axis = |share: f64| (1000.0 * share.clamp(-1.0, 1.0)).round() as i16;
         self.send(&MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA {
-            target: 1,
+            target: self.system_id,
             x: axis(forward),
             y: axis(right),
             z: axis(up),
@@ -384,6 +386,6 @@ impl Vehicle {
     /// Returns a command to the autopilot at a position in the scenario's frame, in meters.
     fn command_at(&self, command: MavCmd, position_m: Vec3<Enu>, params: [f32; 4]) -> MavMessage {
         let place = self.sim.site().plane().geo_from_enu(position_m);
-        MavMessage::COMMAND_INT(station::command_at(1, 1, command, params, place))
+        MavMessage::COMMAND_INT(station::command_at(self.system_id, 1, command, params, place))
     }
 }

@@ -1,4 +1,5 @@
-//! Checks a scenario beyond its syntax: whether the aircraft fits along the paths, whether the inspector can stand and walk at the
+//! Checks a scenario beyond its syntax: whether the aircraft fits along the paths, whether the paths of other drones are free,
+//! whether the inspector can stand and walk at the
 //! places, whether the defects can be placed, and what its forms, levels and certification require. `spandrel check` and the
 //! scenario editor show the results.
 
@@ -8,7 +9,10 @@ use crate::terms::element_title;
 use spandrel_model::elements::{Element, ElementUnit};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::ElementQuantity;
+use spandrel_model::scenario::drones::POINTS_KEY;
 use spandrel_model::scenario::{self, BatteryModel, Bridge, PlacedDefect, Scenario, SiblingLoader, Task, places};
+use spandrel_model::site::drones::SiteDrone;
+use spandrel_model::site::geometry::PAD;
 use spandrel_model::site::hand_placed::Misplacement;
 use spandrel_model::site::walkable::MAX_HEIGHT_ERROR_M;
 use spandrel_model::site::{Site, defects};
@@ -194,6 +198,7 @@ fn built_site(scenario: &Scenario, options: &CheckOptions<'_>) -> Option<Site> {
 fn site_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
     let mut problems = clearance_problems(source, scenario, site, options);
     if (options.may_continue)() {
+        problems.extend(drone_problems(source, site));
         problems.extend(place_problems(source, scenario, site));
         problems.extend(placed_defect_problems(source, scenario, site));
     }
@@ -276,23 +281,18 @@ fn placed_defect_warnings(
 }
 
 fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
-    let aircraft = options.aircraft;
-    let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MIN_CLEARANCE_M;
     let lines = table_line_numbers(source.text, &TASK_TABLES);
     let tight = |(k, task): (usize, &Task)| {
-        let (at_m, near) = site.min_path_clearance(task, needed_m)?;
-        let (clearance_m, object) = (near.distance_m, site.object_name(near.object));
+        let (at_m, near) = site.min_path_clearance(task.segments(), needed_clearance_m(options.aircraft))?;
         let [east, north, up] = at_m.array();
+        let object = site.object_name(near.object);
         Some(Problem {
             file: source.file.to_owned(),
             line: lines.get(k).copied().unwrap_or(1),
             key: format!("tasks.{k}"),
             location: format!("tasks[{k}]"),
-            value: format!("{clearance_m:.2} m"),
-            allowed: format!(
-                "at least {needed_m:.2} m for {}: half its {:.2} m tip-to-tip width plus {MIN_CLEARANCE_M} m",
-                aircraft.id, aircraft.hull.tip_to_tip_m
-            ),
+            value: format!("{:.2} m", near.distance_m),
+            allowed: needed_clearance_words(options.aircraft),
             message: format!(
                 "the path of task {} '{}' passes too close to {object} at east {east:.1} m, north {north:.1} m, up {up:.1} m",
                 task.id, task.name
@@ -300,6 +300,62 @@ fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Sit
         })
     };
     scenario.tasks.iter().enumerate().take_while(|_| (options.may_continue)()).filter_map(tight).collect()
+}
+
+/// Returns the clearance that a path of an aircraft needs, m.
+fn needed_clearance_m(aircraft: &Vehicle) -> f64 {
+    0.5 * aircraft.hull.tip_to_tip_m + MIN_CLEARANCE_M
+}
+
+fn needed_clearance_words(aircraft: &Vehicle) -> String {
+    let (id, width_m, needed_m) = (&aircraft.id, aircraft.hull.tip_to_tip_m, needed_clearance_m(aircraft));
+    format!("at least {needed_m:.2} m for {id}: half its {width_m:.2} m tip-to-tip width plus {MIN_CLEARANCE_M} m")
+}
+
+/// Heading of the table of a drone that flies along a path.
+const DRONE_TABLES: [&str; 1] = ["[[drones]]"];
+
+/// Returns the problems of the drones' paths: they must be clear of bridges, ground, water and the landing pad, and of the ways of
+/// traffic and crew.
+fn drone_problems(source: &ScenarioText<'_>, site: &Site) -> Vec<Problem> {
+    let lines = table_line_numbers(source.text, &DRONE_TABLES);
+    let tight = |(k, drone): (usize, &SiteDrone)| {
+        let (at_m, distance_m, object) = drone_obstacle(site, drone)?;
+        let ([east, north, up], name) = (at_m.array(), drone.name());
+        Some(Problem {
+            file: source.file.to_owned(),
+            line: lines.get(k).copied().unwrap_or(1),
+            key: format!("drones.{k}.{POINTS_KEY}"),
+            location: format!("drones[{k}].{POINTS_KEY}"),
+            value: format!("{distance_m:.2} m"),
+            allowed: needed_clearance_words(drone.vehicle()),
+            message: format!(
+                "the path of drone {name} passes too close to {object} at east {east:.1} m, north {north:.1} m, up {up:.1} m"
+            ),
+        })
+    };
+    site.drones().iter().enumerate().filter_map(tight).collect()
+}
+
+/// Distance between the points of a drone's path at which traffic and crew are searched, m.
+const TRAFFIC_SEARCH_STEP_M: f64 = 0.25;
+/// Name of traffic and crew in messages about a drone's path.
+const OTHERS: &str = "vehicles or people";
+
+/// Returns a point of a drone's path that is too close to something, the distance in meters, and what it is.
+fn drone_obstacle(site: &Site, drone: &SiteDrone) -> Option<(Vec3<Enu>, f64, String)> {
+    let needed_m = needed_clearance_m(drone.vehicle());
+    if let Some((at_m, near)) = site.min_path_clearance(drone.path().segments(), needed_m) {
+        return Some((at_m, near.distance_m, site.object_name(near.object)));
+    }
+    drone.path().sampled(TRAFFIC_SEARCH_STEP_M).find_map(|at_m| {
+        let pad_m = site.geometry().pad_distance_m(at_m);
+        if pad_m < needed_m {
+            return Some((at_m, pad_m, site.object_name(PAD)));
+        }
+        let others_m = site.traffic().min_distance_of_others_m(at_m, needed_m)?;
+        Some((at_m, others_m, OTHERS.to_owned()))
+    })
 }
 
 /// Key of the inspector's first place.
@@ -426,6 +482,44 @@ mod tests {
     use spandrel_model::{shipped, vehicle};
 
     const ALWAYS: &dyn Fn() -> bool = &|| true;
+
+    /// The practice job with a drone that flies between two points.
+    fn with_drone(from: [f64; 3], to: [f64; 3]) -> String {
+        let practice = shipped_text("practice");
+        format!("{practice}\n[[drones]]\nname = \"survey\"\nvehicle = \"m30\"\npoints_m = [{from:?}, {to:?}]\n")
+    }
+
+    #[test]
+    fn exact_paths_of_other_drones_must_be_clear() {
+        // The example of the documentation is free.
+        let example = shipped::SCENARIO_README.split("```toml\n").find(|block| block.starts_with("[[drones]]")).unwrap();
+        let documented = format!("{}\n{}", shipped_text("practice"), example.split("```").next().unwrap());
+        assert_eq!(scenario_findings("practice", &documented, &aircraft()).problems, []);
+        let job = |from, to| scenario_findings("practice", &with_drone(from, to), &aircraft()).problems;
+        assert_eq!(job([-30.0, 60.0, 60.0], [30.0, 60.0, 60.0]), []);
+        let pad_m = scenario::read("practice", &shipped_text("practice"), &|_| Err(String::new())).unwrap().ground_team.pad_m;
+        let pad = pad_m.array();
+        let over = |up: f64| [pad[0], pad[1], pad[2] + up];
+        for (from, to, object) in
+            [([0.0, -40.0, 34.0], [0.0, 40.0, 34.0], "arch/"), (over(30.0), over(-3.0), "ground"), (over(30.0), over(0.7), "pad")]
+        {
+            let problems = job(from, to);
+            assert_eq!(problems.len(), 1, "{problems:?}");
+            let Problem { key, location, line, message, allowed, .. } = &problems[0];
+            assert_eq!((key.as_str(), location.as_str()), ("drones.0.points_m", "drones[0].points_m"));
+            assert_eq!([*line], table_line_numbers(&with_drone(from, to), &DRONE_TABLES)[..]);
+            assert!(
+                message.starts_with("the path of drone survey passes too close to ") && message.contains(object),
+                "{message}"
+            );
+            assert!(allowed.starts_with("at least 1.") && allowed.contains(" for m30: half its "), "{allowed}");
+        }
+        // Above the deck there is only traffic, up to the height of a truck.
+        let deck = scenario::read("practice", &shipped_text("practice"), &|_| Err(String::new())).unwrap().bridges[0].center_m;
+        let [east, north, up] = deck.array();
+        let low = job([east, north, up + 4.5], [east + 1.0, north, up + 4.5]);
+        assert!(low.len() == 1 && low[0].message.contains("vehicles or people"), "{low:?}");
+    }
 
     fn aircraft() -> Vehicle {
         vehicle::read("phantom2.toml", shipped::PHANTOM2).unwrap()

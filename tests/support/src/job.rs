@@ -75,6 +75,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         bridges: Vec::new(),
         tasks,
         defects: DefectSpec { size_factor: 1.0, ..DefectSpec::default() },
+        drones: Vec::new(),
         traffic: TrafficSpec { cars: 0, trucks: 0, pedestrians: 0, car_speed_m_s: 15.0 },
         wind: WindSpec {
             model: WindModel::Paper,

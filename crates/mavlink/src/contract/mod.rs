@@ -12,6 +12,7 @@
 //! | [`cue`] | bit flags of the monitor's cues |
 //! | [`guidance`] | the next step of the job and the way to it |
 //! | [`hazards`] | disturbance of compass and radio at the aircraft |
+//! | [`other_drones`] | other vehicles of the simulator at the same site |
 //! | [`radio_status`] | RADIO_STATUS in the scale of SiK radios |
 //! | [`practice`] | requests that are allowed in practice only: freeze, resume, rewind |
 //! | [`walk`] | request that the inspector walks to another place |
@@ -29,6 +30,7 @@ pub mod hazards;
 pub mod lesson;
 pub mod modes;
 pub mod named_values;
+pub mod other_drones;
 pub mod practice;
 pub mod radio_status;
 pub mod stick_request;

@@ -12,6 +12,10 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Tab
 const DEFECTS: &str = "defects";
 /// Key of a bridge's type, which determines which table with dimensions the bridge has.
 const BRIDGE_TYPE_KEY: &str = "type";
+/// Height of a new drone above the landing pad, m.
+const NEW_DRONE_HEIGHT_M: f64 = 60.0;
+/// Length of the path of a new drone, m to the east.
+const NEW_DRONE_PATH_M: f64 = 40.0;
 /// Distance between a new bridge and the one before it, m to the north.
 const NEW_BRIDGE_DISTANCE_M: f64 = 100.0;
 
@@ -27,7 +31,7 @@ pub enum Edit {
     },
     /// Adds a table to a repeated table.
     Add {
-        /// Location of the repeated table: `tasks`, `bridges` or `wind.events`.
+        /// Location of the repeated table: `tasks`, `bridges`, `drones` or `wind.events`.
         location: String,
     },
     /// Removes one table of a repeated table.
@@ -209,6 +213,7 @@ fn new_table(location: &str, values: &ScenarioValues) -> Option<Entries> {
     match location {
         "tasks" => Some(new_task(values)),
         "bridges" => Some(new_bridge(values)),
+        "drones" => Some(new_drone(values)),
         "wind.events" => Some(new_gust()),
         _ => None,
     }
@@ -238,18 +243,34 @@ fn new_bridge(values: &ScenarioValues) -> Entries {
     let names: Vec<&str> = (0..count).filter_map(|k| values.get(&format!("bridges[{k}].name"))).collect();
     let free = (count + 1..).map(|k| format!("bridge-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default();
     let last = count.checked_sub(1).and_then(|k| values.get(&format!("bridges[{k}].centre_m")));
-    let center: Vec<f64> =
-        last.unwrap_or_default().trim_matches(['[', ']']).split(',').filter_map(|part| part.trim().parse().ok()).collect();
-    let [east, north, up] = match center[..] {
-        [east, north, up] => [east, north + NEW_BRIDGE_DISTANCE_M, up],
-        _ => [0.0, 0.0, 34.0],
-    };
+    let beside_last = position(last).map(|[east, north, up]| [east, north + NEW_BRIDGE_DISTANCE_M, up]);
+    let [east, north, up] = beside_last.unwrap_or([0.0, 0.0, 34.0]);
     vec![
         ("name", Value::from(free)),
         ("type", Value::from("arch")),
         ("centre_m", Value::Array([east, north, up].into_iter().collect())),
         ("heading_deg", Value::from(90.0)),
     ]
+}
+
+/// Returns a drone that hovers high above the landing pad, where no bridge is in its way.
+fn new_drone(values: &ScenarioValues) -> Entries {
+    let names: Vec<&str> = (0..values.count("drones")).filter_map(|k| values.get(&format!("drones[{k}].name"))).collect();
+    let free = (names.len() + 1..).map(|k| format!("drone-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default();
+    let [east, north, up] = position(values.get("ground_team.pad_m")).unwrap_or([0.0; 3]);
+    let point = |east: f64| -> Value { [east, north, up + NEW_DRONE_HEIGHT_M].into_iter().collect::<Array>().into() };
+    vec![
+        ("name", Value::from(free)),
+        ("points_m", Value::Array([point(east), point(east + NEW_DRONE_PATH_M)].into_iter().collect())),
+        ("repeat", Value::from(true)),
+    ]
+}
+
+/// Returns the coordinates in a value such as `[1, 2, 3]`.
+fn position(value: Option<&str>) -> Option<[f64; 3]> {
+    let inside = value?.trim_matches(['[', ']']);
+    let coordinates: Vec<f64> = inside.split(',').filter_map(|part| part.trim().parse().ok()).collect();
+    coordinates.try_into().ok()
 }
 
 fn new_gust() -> Entries {
@@ -436,7 +457,8 @@ mod tests {
     fn exact_new_tables_are_valid() {
         for text in [PRACTICE, TWO_BRIDGES, include_str!("../../../../scenarios/drill-hover.toml")] {
             let add = |location: &str| Edit::Add { location: location.into() };
-            let edited = apply(text, &[add("tasks"), add("bridges"), add("bridges"), add("wind.events")]).unwrap();
+            let tables = ["tasks", "bridges", "bridges", "wind.events", "drones", "drones"];
+            let edited = apply(text, &tables.map(add)).unwrap();
             assert_eq!(problems(&edited), [], "{edited}");
         }
         let inline = "tasks = [{ name = \"a\", kind = \"free\", points_m = [[0, 0, 5]] }]\n";

@@ -53,6 +53,8 @@ pub struct Scenario {
     pub lesson: Vec<LessonStep>,
     /// Number of vehicles and pedestrians, and vehicle speed.
     pub traffic: TrafficSpec,
+    /// Drones beside the trainee's, in file order.
+    pub drones: Vec<DroneSpec>,
     /// Wind model, mean wind and gusts.
     pub wind: WindSpec,
     /// Sun, cloud cover and surface reflection.
@@ -348,6 +350,29 @@ pub struct TrafficSpec {
     pub pedestrians: usize,
     /// Mean speed of cars and trucks, m/s.
     pub car_speed_m_s: f64,
+}
+
+/// A drone that flies along a path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DroneSpec {
+    /// Machine-readable name, unique in the job.
+    pub name: String,
+    /// ID of the shipped aircraft with its hull and its looks.
+    pub vehicle: &'static str,
+    /// Points of the path of the center of mass, m. There is at least one.
+    pub points_m: Vec<Vec3<Enu>>,
+    /// Speed between the points, m/s.
+    pub speed_m_s: f64,
+    /// Heading along the whole path, degrees clockwise from north.
+    pub heading_deg: f64,
+    /// Simulation time at which it leaves the first point, s.
+    pub at_s: f64,
+    /// The seed adds 0 to this time to [`Self::at_s`], s.
+    pub spread_s: f64,
+    /// Time at each point before it flies on, s.
+    pub wait_s: f64,
+    /// Whether it flies from the last point to the first one and repeats the path.
+    pub repeat: bool,
 }
 
 /// A job's wind settings.

@@ -6,10 +6,12 @@ mod briefing_pictures;
 mod certification;
 mod defect_cause;
 mod difficulty;
+pub mod drones;
 pub mod edit;
 mod forms;
 mod job;
 mod lesson;
+mod names;
 pub mod places;
 mod point;
 mod read;
@@ -30,13 +32,14 @@ pub use defect_cause::{DefectCause, DefectPlacement, Stain, StainSubstance};
 pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};
 pub use job::{
-    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION, HazardSpec,
-    INSPECTOR_EYE_HEIGHT_M, LightSpec, MAX_DEFECTS, PlacedDefect, Scenario, ScoringParams, SelectedForm, SessionRules, StandOff,
-    Task, TerrainSource, TerrainSpec, TrafficSpec, WeatherSpec, WindEvent, WindModel, WindSpec,
+    AfterCrash, BatteryModel, DefectSpec, Difficulty, DroneSpec, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION,
+    HazardSpec, INSPECTOR_EYE_HEIGHT_M, LightSpec, MAX_DEFECTS, PlacedDefect, Scenario, ScoringParams, SelectedForm,
+    SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WeatherSpec, WindEvent, WindModel, WindSpec,
 };
 pub use lesson::{LessonPlace, LessonStep};
+pub use names::{MAX_NAME_CHARS, is_name, is_name_char};
 pub use point::MAX_COORDINATE_M;
-pub use read::{FORMAT, MAX_NAME_CHARS, is_name, is_name_char, read, read_with_keys};
+pub use read::{FORMAT, read, read_with_keys};
 pub use resolve::{LENGTH_RANGE_M, WIDTH_RANGE_M, resolve, select_variant, variant_names, variant_with_crc};
 pub use siblings::SiblingLoader;
 pub use stain_patch::{StainPatch, downhill};

@@ -8,6 +8,7 @@ use super::job::{
     AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HazardSpec, LightSpec,
     MAX_DEFECTS, Scenario, ScoringParams, SessionRules, TrafficSpec,
 };
+use super::names::read_name;
 use super::point::point;
 use super::siblings::{SiblingLoader, sibling_text};
 use crate::defect_codes;
@@ -106,6 +107,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         difficulty: None,
         lesson,
         traffic: traffic(r, root),
+        drones: super::drones::read(r, root),
         wind: super::weather::read(r, root),
         light: light(r, root),
         weather: super::weather::read_visible(r, root),
@@ -128,31 +130,6 @@ fn read_briefing(r: &mut Reader, root: &mut Section) -> Vec<String> {
         r.add_problem(root, "briefing", &length, &format!("at most {MAX_BRIEFING_CHARS} characters a paragraph"), "too long");
     }
     words
-}
-
-/// Maximum length of a machine-readable name, characters.
-pub const MAX_NAME_CHARS: usize = 40;
-
-/// Returns whether a character is allowed in a machine-readable name.
-#[must_use]
-pub const fn is_name_char(c: char) -> bool {
-    c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'
-}
-
-/// Returns whether a text is a machine-readable name: 1 to 40 lowercase letters, digits and hyphens.
-#[must_use]
-pub fn is_name(text: &str) -> bool {
-    (1..=MAX_NAME_CHARS).contains(&text.len()) && text.chars().all(is_name_char)
-}
-
-/// Reads a machine-readable name.
-fn read_name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
-    let before = r.problems.len();
-    let name = r.text(s, key, None);
-    if !is_name(&name) && r.problems.len() == before {
-        r.add_problem(s, key, &name, "1 to 40 characters: a-z, 0-9 and -", "invalid name");
-    }
-    name
 }
 
 fn origin(r: &mut Reader, root: &mut Section) -> Geo {

@@ -3,6 +3,7 @@
 
 use super::camera_pose::CameraPose;
 use super::defects::{self, PlacementContext};
+use super::drones::SiteDrones;
 use super::light::{LightModel, RayCast};
 use super::query_types::{NearestPoint, QueryTime, RayHit};
 use super::traffic::TrafficPlan;
@@ -16,7 +17,7 @@ use crate::vehicle::{Camera, Lamp};
 /// Traffic plan, defects and light of one session. Plain data, immutable after construction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dynamics {
-    /// Plan of cars, trucks and pedestrians, and the crew.
+    /// Plan of cars, trucks and pedestrians, the crew, and drones that fly along paths.
     pub traffic: TrafficPlan,
     /// Model of sun, sky and reflections.
     pub light: LightModel,
@@ -49,7 +50,8 @@ impl Dynamics {
             water_up_m: scenario.terrain.water_level_m,
         };
         let placed = defects::place_defects(&scenario.defects, &ground, seed);
-        Self { traffic: TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed), light, defects: placed }
+        let traffic = TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed);
+        Self { traffic: traffic.with_drones(SiteDrones::new(&scenario.drones, seed)), light, defects: placed }
     }
 
     /// Returns the nearest point within `max_m` of static geometry (`still`), traffic and crew.
@@ -219,6 +221,7 @@ mod tests {
             bridges,
             tasks,
             defects: DefectSpec { count: 10, size_factor: 1.0, ..DefectSpec::default() },
+            drones: Vec::new(),
             traffic: TrafficSpec { cars: 12, trucks: 4, pedestrians: 8, car_speed_m_s: 13.4 },
             wind: WindSpec {
                 model: WindModel::Physical,

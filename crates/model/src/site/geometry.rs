@@ -183,6 +183,12 @@ impl Geometry {
         (free < max_m).then_some(free)
     }
 
+    /// Returns the distance of a point from the landing pad, in meters; negative inside.
+    #[must_use]
+    pub fn pad_distance_m(&self, p: Vec3<Enu>) -> f64 {
+        self.pad_shape.nearest(p).distance_m
+    }
+
     /// Returns the point of a segment with the smallest distance to any surface, and the nearest surface point, if the distance
     /// is below `less_than_m`. The result is accurate to one millimeter.
     #[must_use]

@@ -2,6 +2,7 @@
 //! scenario's local frame [`Enu`], m. All queries are pure functions of their arguments, which include the time for moving
 //! objects.
 
+pub mod aircraft_hull;
 pub mod boxes;
 pub mod bridge_closures;
 pub mod bridge_import;
@@ -14,12 +15,15 @@ mod defect_checks;
 mod defect_slots;
 pub mod defects;
 pub mod detection;
+pub mod drone_path;
+pub mod drones;
 pub mod dynamics;
 mod faces;
 pub mod geometry;
 pub mod gltf;
 pub mod hand_placed;
 pub mod heights;
+pub mod hull_shape;
 pub mod inspector_path;
 pub mod inspector_walks;
 mod lane_track;
@@ -83,11 +87,15 @@ impl Site {
         Self::build(&Scenario { defects, ..scenario.clone() }, ANY_SEED)
     }
 
-    /// Returns the place on a task's path with the smallest clearance to the structure and the terrain; `None` if it is at least
-    /// `less_than_m` everywhere.
+    /// Returns the place on a path of straight segments with the smallest clearance to the structure and the terrain; `None` if it
+    /// is at least `less_than_m` everywhere.
     #[must_use]
-    pub fn min_path_clearance(&self, task: &Task, less_than_m: f64) -> Option<(Vec3<Enu>, NearestPoint)> {
-        task.segments().fold(None, |best: Option<(Vec3<Enu>, NearestPoint)>, (from, to)| {
+    pub fn min_path_clearance(
+        &self,
+        segments: impl Iterator<Item = (Vec3<Enu>, Vec3<Enu>)>,
+        less_than_m: f64,
+    ) -> Option<(Vec3<Enu>, NearestPoint)> {
+        segments.fold(None, |best: Option<(Vec3<Enu>, NearestPoint)>, (from, to)| {
             let limit_m = best.map_or(less_than_m, |(_, near)| near.distance_m);
             self.geometry.min_clearance(from, to, limit_m).or(best)
         })
@@ -139,6 +147,23 @@ impl Site {
     #[must_use]
     pub fn traffic(&self) -> &traffic::TrafficPlan {
         &self.dynamics.traffic
+    }
+
+    /// Returns the drones that fly along paths of the scenario.
+    #[must_use]
+    pub fn drones(&self) -> &[drones::SiteDrone] {
+        self.dynamics.traffic.drones().all()
+    }
+
+    /// Returns the other vehicles that share the site.
+    #[must_use]
+    pub fn live_drones(&self) -> &[drones::LiveDrone] {
+        self.dynamics.traffic.drones().live()
+    }
+
+    /// Sets the positions of the other vehicles that share the site.
+    pub fn set_live_drones(&mut self, live: Vec<drones::LiveDrone>) {
+        self.dynamics.traffic.set_live_drones(live);
     }
 
     /// Returns a copy of the site with other bridge closures and walks. Both share the static geometry.

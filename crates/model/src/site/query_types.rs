@@ -13,7 +13,7 @@ pub enum Surface {
     Terrain,
     /// The water.
     Water,
-    /// A car or truck in traffic, or the crew's truck.
+    /// A car or truck in traffic, the crew's truck, or another drone.
     Vehicle,
     /// A pedestrian or the inspector.
     Person,

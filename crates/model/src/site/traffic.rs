@@ -1,10 +1,11 @@
-//! Cars, trucks and pedestrians on the decks, and the ground crew. The plan is generated from the seed; positions are a
+//! Cars, trucks and pedestrians on the decks, the ground crew, and drones that fly along paths. The plan is generated from the seed; positions are a
 //! pure function of simulation time. All objects in a lane have the same speed, which prevents overtaking. They move on
 //! a loop longer than the lane, so that they appear and disappear beyond the ends of the bridge.
 
 use super::boxes::{OrientedBox, bounding_sphere};
 use super::bridge_closures::BridgeClosures;
 use super::changes::SiteChanges;
+use super::drones::{LiveDrone, SiteDrones};
 use super::inspector_path::{GroundHeight, InspectorPath, InspectorPosition};
 use super::lane_track::{LaneTrack, arc_lengths, without_collinear_points};
 use super::movers::{MoverKind, MoverPlacement, boxes};
@@ -55,6 +56,7 @@ pub struct TrafficPlan {
     inspector: InspectorPath,
     truck: MoverPlacement,
     closures: BridgeClosures,
+    drones: SiteDrones,
 }
 
 impl TrafficPlan {
@@ -69,6 +71,7 @@ impl TrafficPlan {
             inspector: InspectorPath::new(team),
             truck: parked_truck(team),
             closures: BridgeClosures::default(),
+            drones: SiteDrones::default(),
         };
         let roads: Vec<&Lane> = lanes.iter().filter(|l| !l.walkway && l.points_m.len() >= 2).collect();
         let walkways: Vec<&Lane> = lanes.iter().filter(|l| l.walkway && l.points_m.len() >= 2).collect();
@@ -88,6 +91,23 @@ impl TrafficPlan {
             plan.add_lane(lane, &kinds, (speed, MIN_PEDESTRIAN_SPACING_M), &mut numbers, &mut stream);
         }
         plan
+    }
+
+    /// Returns the plan with drones that fly along paths.
+    #[must_use]
+    pub fn with_drones(self, drones: SiteDrones) -> Self {
+        Self { drones, ..self }
+    }
+
+    /// Sets the other vehicles that share the site.
+    pub(super) fn set_live_drones(&mut self, live: Vec<LiveDrone>) {
+        self.drones.set_live(live);
+    }
+
+    /// Returns the other drones.
+    #[must_use]
+    pub fn drones(&self) -> &SiteDrones {
+        &self.drones
     }
 
     fn add_lane(
@@ -187,7 +207,7 @@ impl TrafficPlan {
         entered.then(|| track.at(s))
     }
 
-    /// Returns the boxes of all objects at a time, for rendering and tests.
+    /// Returns the boxes of traffic and crew at a time, for rendering and tests.
     #[must_use]
     pub fn solids(&self, at: SimTime) -> Vec<(ObjectId, Surface, OrientedBox)> {
         let moving = self.movers.iter().enumerate().filter_map(|(k, mover)| {
@@ -198,7 +218,7 @@ impl TrafficPlan {
         all.flat_map(|(object, kind, placed)| boxes(kind, placed).map(move |solid| (object, kind.surface(), solid))).collect()
     }
 
-    /// Returns the nearest point of traffic or crew within `max_m`.
+    /// Returns the nearest point of traffic, crew or drones within `max_m`.
     #[must_use]
     pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<NearestPoint> {
         let mut best: Option<NearestPoint> = None;
@@ -208,13 +228,30 @@ impl TrafficPlan {
                 best = Some(NearestPoint { distance_m, point_m, normal, surface, object });
             }
         });
-        best
+        self.drones.nearest(position_m, best.map_or(max_m, |b| b.distance_m), at).or(best)
+    }
+
+    /// Returns the minimum distance of traffic and drones from a point at any time, in meters, if it is below `max_m`. Assumes
+    /// that every vehicle type in the plan uses every lane, and that pedestrians use every walkway.
+    #[must_use]
+    pub fn min_distance_over_time_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
+        let lanes_m = self.min_lane_distance_m(position_m, max_m);
+        self.drones.min_distance_over_time_m(position_m, lanes_m.unwrap_or(max_m)).or(lanes_m)
+    }
+
+    /// Returns the minimum distance of traffic at any time, and of the crew at the start, from a point, in meters, if it is below
+    /// `max_m`.
+    #[must_use]
+    pub fn min_distance_of_others_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
+        let crew = self.crew(SimTime::ZERO).into_iter().flat_map(|(_, kind, placed)| boxes(kind, placed));
+        let crew_m =
+            crew.map(|solid| solid.nearest(position_m).0).filter(|distance_m| *distance_m < max_m).min_by(f64::total_cmp);
+        self.min_lane_distance_m(position_m, crew_m.unwrap_or(max_m)).or(crew_m)
     }
 
     /// Returns the minimum distance of traffic from a point at any time, in meters, if it is below `max_m`. Assumes
     /// that every vehicle type in the plan uses every lane, and that pedestrians use every walkway.
-    #[must_use]
-    pub fn min_distance_over_time_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
+    fn min_lane_distance_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let mut least: Option<f64> = None;
         let tracks = self.tracks.iter().filter(|track| track.count > 0);
         for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + MoverKind::MAX_MOVER_EXTENT_M) {
@@ -232,7 +269,7 @@ impl TrafficPlan {
         self.movers.iter().any(|mover| mover.kind == kind)
     }
 
-    /// Returns the first hit of a ray with traffic or crew within `max_m`.
+    /// Returns the first hit of a ray with traffic, crew or drones within `max_m`.
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit> {
         let mut best: Option<RayHit> = None;
@@ -260,10 +297,10 @@ impl TrafficPlan {
                 test(ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind, placed);
             }
         }
-        best
+        self.drones.ray(origin_m, direction, best.map_or(max_m, |b| b.distance_m), at).or(best)
     }
 
-    /// Appends a probe's contacts with traffic and crew. A contact has the object's velocity.
+    /// Appends a probe's contacts with traffic, crew and drones. A contact has the object's velocity.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         let (center_m, radius_m) = bounding_sphere(probe);
         self.visit_near(center_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {
@@ -271,9 +308,10 @@ impl TrafficPlan {
                 out.push(Contact { point_m, normal, gap_m, velocity_m_s, surface, object });
             });
         });
+        self.drones.contacts(probe, margin_m, at, out);
     }
 
-    /// Returns the name of a traffic or crew object, such as `truck 2`; `None` for other objects.
+    /// Returns the name of an object of traffic or crew or of a drone, such as `truck 2`; `None` for other objects.
     #[must_use]
     pub fn name(&self, object: ObjectId) -> Option<String> {
         if object == INSPECTOR {
@@ -281,6 +319,9 @@ impl TrafficPlan {
         }
         if object == CREW_TRUCK {
             return Some("crew truck".into());
+        }
+        if let Some(name) = self.drones.name(object) {
+            return Some(format!("drone {name}"));
         }
         let mover = self.movers.get(object.0.checked_sub(FIRST_TRAFFIC_OBJECT)? as usize)?;
         let kind = match mover.kind {

@@ -7,6 +7,7 @@ mod box_girder;
 mod bridges;
 mod cable_stayed;
 mod difficulty;
+mod drones;
 mod elements;
 mod geometry;
 mod girder;

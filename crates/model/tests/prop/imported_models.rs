@@ -181,7 +181,7 @@ fn exact_job_of_an_imported_bridge_is_valid_and_free_of_obstacles() {
     for task in &scenario.tasks {
         assert_eq!(task.bridge, Some(0));
         // 1 m more than the warning; points of a path are rounded to 1 cm.
-        assert_eq!(site.min_path_clearance(task, 3.49), None, "{}", task.name);
+        assert_eq!(site.min_path_clearance(task.segments(), 3.49), None, "{}", task.name);
         // Each point of the path looks at the deck beside it, or above and slightly ahead.
         let looks = |view: &Vec3<Enu>| view.up().max(view.north().abs()) > 0.9;
         assert!(task.viewing_directions.iter().all(looks), "{}", task.name);

@@ -55,6 +55,7 @@ impl Endpoint {
         self.send_due_streams(&view, &input);
         self.payload.send_scoring(&input, &mut self.links);
         self.payload.send_hazards(&input, &mut self.links);
+        self.payload.send_other_drones(&input, &mut self.links);
         self.vehicle.send_messages(&view, &mut self.links);
         self.payload.send_files(&mut self.links);
         self.vehicle.send_logs(&mut self.links);

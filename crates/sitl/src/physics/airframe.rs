@@ -1,6 +1,5 @@
 //! Constants of one aircraft, precomputed for the models.
 
-use super::hull;
 use super::inflow::Inflow;
 use super::multirotor_surfaces::RotorLayout;
 use super::rotor_lanes::RotorGroup;
@@ -10,7 +9,9 @@ use super::walls::Walls;
 use nalgebra::{Vector2, Vector3};
 use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
+use spandrel_model::site::aircraft_hull::{BodyProbe, hull_radius_m, probes};
 use spandrel_model::vehicle::{AirDensity, BatterySpec, Lamp, Rotor, RotorModel, SurfaceEffects, Vehicle};
+use std::sync::Arc;
 
 /// Step for which the decay of the rotor speeds is computed in advance, s.
 const USUAL_STEP_S: f64 = 1e-3;
@@ -41,7 +42,7 @@ pub struct AirframeModel {
     air_density: AirDensity,
     pub(super) drag_area_m2: Vector3<f64>,
     pub(super) angular_damping: Vector3<f64>,
-    pub(super) probes: Vec<hull::BodyProbe>,
+    pub(crate) probes: Arc<[BodyProbe]>,
     pub(super) hull_radius_m: f64,
     pub(super) restitution: f64,
     pub(super) friction: f64,
@@ -55,8 +56,8 @@ impl AirframeModel {
     #[must_use]
     pub fn new(vehicle: &Vehicle, battery_model: BatteryModel) -> Self {
         let inertia = Vector3::from(vehicle.inertia_kg_m2);
-        let probes = hull::probes(vehicle);
-        let hull_radius_m = probes.iter().map(hull::BodyProbe::reach_m).fold(0.0, f64::max);
+        let probes = probes(vehicle);
+        let hull_radius_m = hull_radius_m(&probes);
         Self {
             mass_kg: vehicle.mass_kg,
             inverse_mass: 1.0 / vehicle.mass_kg,
@@ -78,7 +79,7 @@ impl AirframeModel {
             air_density: vehicle.aerodynamics.air_density,
             drag_area_m2: Vector3::from(vehicle.drag.area_m2),
             angular_damping: Vector3::from(vehicle.drag.angular_damping_n_m_s),
-            probes,
+            probes: probes.into(),
             hull_radius_m,
             restitution: vehicle.hull.restitution,
             friction: vehicle.hull.friction,
@@ -86,6 +87,12 @@ impl AirframeModel {
             battery_model,
             lamp: vehicle.lamp,
         }
+    }
+
+    /// Returns the radius of the sphere about the center of mass that contains the hull, m.
+    #[must_use]
+    pub fn hull_radius_m(&self) -> f64 {
+        self.hull_radius_m
     }
 
     /// Returns the model with a battery at a temperature, °C.

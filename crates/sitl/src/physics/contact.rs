@@ -15,9 +15,9 @@ const MIN_BOUNCE_SPEED_M_S: f64 = 0.3;
 /// Gap below which bodies count as touching, m.
 const TOUCH_DISTANCE_M: f64 = 1e-3;
 /// Penetration depth that is not corrected, m.
-const PENETRATION_SLOP_M: f64 = 1e-5;
+pub(super) const PENETRATION_SLOP_M: f64 = 1e-5;
 /// Fraction of the penetration corrected per step.
-const CORRECTION_FRACTION: f64 = 0.2;
+pub(super) const CORRECTION_FRACTION: f64 = 0.2;
 /// Maximum iterations of the impulse solver. A resting body starts from the impulses of the last step and needs only a
 /// few.
 const MAX_ITERATIONS: usize = 16;
@@ -26,22 +26,45 @@ const CONVERGENCE_THRESHOLD: f64 = 1e-9;
 /// Time constant with which a rotor loses speed during contact, s (estimate).
 const ROTOR_STRIKE_TIME_CONSTANT_S: f64 = 0.08;
 
-struct ContactConstraint {
-    key: ContactKey,
-    rotor: Option<usize>,
-    surface: Surface,
-    object: ObjectId,
-    arm: Vector3<f64>,
-    normal: Vector3<f64>,
-    object_velocity: Vector3<f64>,
-    gap: f64,
-    target: f64,
-    approach: f64,
+/// A contact and the impulse that resolves it.
+pub(super) struct ContactConstraint {
+    pub(super) key: ContactKey,
+    pub(super) rotor: Option<usize>,
+    pub(super) surface: Surface,
+    pub(super) object: ObjectId,
+    pub(super) arm: Vector3<f64>,
+    pub(super) normal: Vector3<f64>,
+    pub(super) object_velocity: Vector3<f64>,
+    pub(super) gap: f64,
+    pub(super) target: f64,
+    pub(super) approach: f64,
     /// Response of the body and the contact point to an impulse at that point.
-    response: ImpulseResponse,
-    inverse_effective: f64,
-    impulse: Vector3<f64>,
-    active: bool,
+    pub(super) response: ImpulseResponse,
+    pub(super) inverse_effective: f64,
+    pub(super) impulse: Vector3<f64>,
+    pub(super) active: bool,
+}
+
+impl ContactConstraint {
+    /// Creates a constraint without an impulse for a contact of an aircraft at a position.
+    pub(super) fn new(key: ContactKey, rotor: Option<usize>, contact: &Contact, position_m: Vec3<Ned>) -> Self {
+        Self {
+            key,
+            rotor,
+            surface: contact.surface,
+            object: contact.object,
+            arm: (contact.point_m.ned() - position_m).raw(),
+            normal: contact.normal.ned().raw(),
+            object_velocity: contact.velocity_m_s.ned().raw(),
+            gap: contact.gap_m,
+            target: 0.0,
+            approach: 0.0,
+            response: ImpulseResponse::default(),
+            inverse_effective: 0.0,
+            impulse: Vector3::zeros(),
+            active: false,
+        }
+    }
 }
 
 /// Corrects the free-flight step made from `start` for contacts with obstacles.
@@ -72,26 +95,27 @@ pub fn resolve(
         // Repeats the step from its start with the velocities that the contacts allow.
         state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + penetration_correction(&constraints);
         state.rigid.attitude = start.attitude.rotated_by(state.rigid.rates_rad_s * dt_s);
-        slow_struck_rotors(&constraints, &mut state.rigid, dt_s);
+        slow_rotors(constraints.iter().filter(|c| c.active).filter_map(|c| c.rotor), &mut state.rigid, dt_s);
     }
     state.contact = report(&constraints, dt_s);
     state.initial_guess.impulses = constraints.iter().filter(|c| c.active).map(|c| (c.key, c.impulse)).collect();
 }
 
-struct ContactBody {
-    inverse_mass: f64,
+/// How an aircraft responds to impulses.
+pub(super) struct ContactBody {
+    pub(super) inverse_mass: f64,
     inverse_inertia: Matrix3<f64>,
 }
 
 impl ContactBody {
-    fn new(model: &AirframeModel, rigid: &RigidState) -> Self {
+    pub(super) fn new(model: &AirframeModel, rigid: &RigidState) -> Self {
         let r = rigid.attitude.matrix();
         let inverse_inertia = r * Matrix3::from_diagonal(&model.inverse_inertia) * r.transpose();
         Self { inverse_mass: model.inverse_mass, inverse_inertia }
     }
 
     /// Returns the response to impulses at `arm`.
-    fn impulse_response(&self, arm: &Vector3<f64>) -> ImpulseResponse {
+    pub(super) fn impulse_response(&self, arm: &Vector3<f64>) -> ImpulseResponse {
         let cross = arm.cross_matrix();
         let spin = self.inverse_inertia * cross;
         ImpulseResponse { angular: spin, linear: Matrix3::identity() * self.inverse_mass - cross * spin }
@@ -100,11 +124,11 @@ impl ContactBody {
 
 /// Response of a body to an impulse at a contact point.
 #[derive(Debug, Clone, Copy, Default)]
-struct ImpulseResponse {
+pub(super) struct ImpulseResponse {
     /// Change of angular velocity per unit impulse.
-    angular: Matrix3<f64>,
+    pub(super) angular: Matrix3<f64>,
     /// Change of the contact point's velocity per unit impulse.
-    linear: Matrix3<f64>,
+    pub(super) linear: Matrix3<f64>,
 }
 
 fn gather(
@@ -118,32 +142,24 @@ fn gather(
     let mut out: Vec<ContactConstraint> = Vec::new();
     for (index, probe) in model.probes.iter().enumerate() {
         found.clear();
-        obstacles.contacts(&probe.transformed(pose), margin_m, at, &mut found);
+        obstacles.contacts(&probe.transformed(pose.position_m, pose.attitude), margin_m, at, &mut found);
         for contact in &found {
             let same = |c: &&ContactConstraint| c.key.0 == index && c.key.1 == contact.object.0;
             let key = (index, contact.object.0, out.iter().filter(same).count());
-            out.push(ContactConstraint {
-                key,
-                rotor: probe.rotor,
-                surface: contact.surface,
-                object: contact.object,
-                arm: (contact.point_m.ned() - pose.position_m).raw(),
-                normal: contact.normal.ned().raw(),
-                object_velocity: contact.velocity_m_s.ned().raw(),
-                gap: contact.gap_m,
-                target: 0.0,
-                approach: 0.0,
-                response: ImpulseResponse::default(),
-                inverse_effective: 0.0,
-                impulse: Vector3::zeros(),
-                active: false,
-            });
+            out.push(ContactConstraint::new(key, probe.rotor, contact, pose.position_m));
         }
     }
     out
 }
 
-fn prepare(constraints: &mut [ContactConstraint], body: &ContactBody, rigid: &RigidState, restitution: f64, dt_s: f64) {
+/// Computes the approach, the target velocity and the response of each constraint.
+pub(super) fn prepare(
+    constraints: &mut [ContactConstraint],
+    body: &ContactBody,
+    rigid: &RigidState,
+    restitution: f64,
+    dt_s: f64,
+) {
     let v = rigid.velocity_m_s.raw();
     let w = (rigid.attitude * rigid.rates_rad_s).raw();
     for c in constraints {
@@ -180,24 +196,31 @@ fn solve(
         v += c.impulse * body.inverse_mass;
         w += c.response.angular * c.impulse;
     }
-    let settled = CONVERGENCE_THRESHOLD * model.mass_kg * spandrel_model::math::GRAVITY_M_S2 * dt_s;
-    for _ in 0..MAX_ITERATIONS {
+    iterate(model.mass_kg, dt_s, || {
         let mut largest: f64 = 0.0;
         for c in constraints.iter_mut() {
             largest = largest.max(solve_contact(c, body, &mut v, &mut w, model.friction));
         }
-        if largest < settled {
-            break;
-        }
-    }
+        largest
+    });
     for c in constraints.iter_mut() {
         c.active = c.impulse.dot(&c.normal) > 0.0;
     }
     (v, w)
 }
 
+/// Repeats a sweep over all contacts until the largest change of an impulse, which it returns, is small.
+pub(super) fn iterate(mass_kg: f64, dt_s: f64, mut sweep: impl FnMut() -> f64) {
+    let settled = CONVERGENCE_THRESHOLD * mass_kg * spandrel_model::math::GRAVITY_M_S2 * dt_s;
+    for _ in 0..MAX_ITERATIONS {
+        if sweep() < settled {
+            break;
+        }
+    }
+}
+
 /// Updates one contact and returns the magnitude of its impulse change.
-fn solve_contact(
+pub(super) fn solve_contact(
     c: &mut ContactConstraint,
     body: &ContactBody,
     v: &mut Vector3<f64>,
@@ -238,14 +261,16 @@ fn penetration_correction(constraints: &[ContactConstraint]) -> Vec3<Ned> {
     })
 }
 
-fn slow_struck_rotors(constraints: &[ContactConstraint], rigid: &mut RigidState, dt_s: f64) {
+/// Slows the rotors that touch something, once for each contact.
+pub(super) fn slow_rotors(struck: impl Iterator<Item = usize>, rigid: &mut RigidState, dt_s: f64) {
     let keep = spandrel_model::math::exp(-dt_s / ROTOR_STRIKE_TIME_CONSTANT_S);
-    for rotor in constraints.iter().filter(|c| c.active).filter_map(|c| c.rotor) {
+    for rotor in struck {
         rigid.rotor_rad_s[rotor] *= keep;
     }
 }
 
-fn report(constraints: &[ContactConstraint], dt_s: f64) -> ContactReport {
+/// Summarizes the contacts in which the bodies touch.
+pub(super) fn report(constraints: &[ContactConstraint], dt_s: f64) -> ContactReport {
     let mut out = ContactReport::default();
     for c in constraints.iter().filter(|c| c.active && c.gap < TOUCH_DISTANCE_M.max(c.approach * dt_s)) {
         out.surface = Some(match out.surface {

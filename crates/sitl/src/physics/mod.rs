@@ -3,10 +3,10 @@
 mod airframe;
 pub mod battery;
 pub mod contact;
-pub mod hull;
 pub mod inflow;
 mod multirotor_surfaces;
 mod obstacles;
+pub mod pair_contact;
 mod recirculation;
 pub mod rigid;
 mod rotor_lanes;
@@ -65,7 +65,12 @@ impl AirframeModel {
             state.initial_guess = WarmStart::default();
         }
         let gravity = Vec3::<Ned>::new(0.0, 0.0, math::GRAVITY_M_S2 * self.gravity_scale);
-        let felt = (state.rigid.velocity_m_s - before) / dt_s - gravity;
+        let mut change_m_s = state.rigid.velocity_m_s - before;
+        let pushed_m_s = std::mem::replace(&mut state.pushed_m_s, Vec3::zero());
+        if pushed_m_s != Vec3::zero() {
+            change_m_s += pushed_m_s;
+        }
+        let felt = change_m_s / dt_s - gravity;
         state.specific_force_m_s2 = state.rigid.attitude.inverse() * felt;
         battery::advance(self, state, air, load, dt_s);
     }

@@ -161,6 +161,8 @@ pub struct PhysicsState {
     pub specific_force_m_s2: Vec3<Frd>,
     /// Contacts of the last step.
     pub contact: ContactReport,
+    /// Change of the velocity by contacts with other vehicles since the last step, m/s, which the accelerometer measures in the next.
+    pub(super) pushed_m_s: Vec3<Ned>,
     pub(super) initial_guess: WarmStart,
     pub(super) effect: [f64; MAX_ROTORS],
     /// Force of walls as a fraction of the thrust.
@@ -200,6 +202,7 @@ impl PhysicsState {
             battery: BatteryState::FULL,
             specific_force_m_s2: Vec3::new(0.0, 0.0, -math::GRAVITY_M_S2),
             contact: ContactReport::default(),
+            pushed_m_s: Vec3::zero(),
             initial_guess: WarmStart::default(),
             effect: [1.0; MAX_ROTORS],
             wall_pull: Vec3::zero(),
@@ -224,5 +227,6 @@ impl PhysicsState {
         self.clear_sphere = fresh.clear_sphere;
         self.initial_guess = fresh.initial_guess;
         self.contact = fresh.contact;
+        self.pushed_m_s = fresh.pushed_m_s;
     }
 }

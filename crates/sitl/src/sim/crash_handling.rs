@@ -53,7 +53,7 @@ impl Sim {
     /// Updates the current contact and counts new ones. Gentle contact with the landing pad, near home or before
     /// liftoff does not count.
     fn record_contact(&mut self) {
-        let report = self.state.contact;
+        let report = self.all_contacts();
         let contact = match report.surface {
             Some((surface, _)) if self.has_lifted_off && !self.is_gentle_touch(surface, report.impact_m_s) => {
                 contact_kind(surface)
@@ -70,7 +70,7 @@ impl Sim {
         }
         self.scoring.hits += 1;
         let (surface, object) = report.surface.unwrap_or((Surface::Other, spandrel_model::site::ObjectId(0)));
-        let what = self.site.object_name(object);
+        let what = self.object_name(object);
         self.events.push_back(SimEvent::Crash { what: what.clone(), impact_m_s: report.impact_m_s });
         if matches!(surface, Surface::Person | Surface::Vehicle) {
             self.end_session(&format!("hit {what}"));

@@ -2,8 +2,10 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod contact;
+mod drones;
 mod free_flight;
 mod movers;
 mod on_bridges;
+mod pair_contact;
 mod rotor_flow;
 mod walls;

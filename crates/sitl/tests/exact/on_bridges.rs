@@ -10,7 +10,7 @@ use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, Obstacles, PhysicsState, PowerLoad};
 
 const DT: SimTime = SimTime::from_ms(1);
-/// Radius of the balls at the feet, m (crates/sitl/src/physics/hull.rs).
+/// Radius of the balls at the feet, m (crates/model/src/site/aircraft_hull.rs).
 const FOOT_RADIUS_M: f64 = 0.015;
 
 fn scenario() -> Scenario {

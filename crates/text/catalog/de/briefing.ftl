@@ -33,6 +33,10 @@ briefing-pedestrians = { $count ->
         [one] { $count } Fußgänger
        *[other] { $count } Fußgänger
     }
+briefing-drones = { $count ->
+        [one] { $count } andere Drohne
+       *[other] { $count } andere Drohnen
+    }
 
 briefing-hover = an einer Stelle schweben
 briefing-place = { $kind ->
@@ -88,6 +92,10 @@ briefing-people = Personen: { $count ->
         [one] { $count } Fußgänger
        *[other] { $count } Fußgänger
     } auf den Gehwegen. Fliegen Sie nie über Personen.
+briefing-other-drones = Andere Drohnen: { $count ->
+        [one] { $count } Drohne fliegt
+       *[other] { $count } Drohnen fliegen
+    } hier auf einer festen Bahn und weicht nicht aus. Achten Sie darauf und halten Sie Abstand.
 briefing-satellites = GNSS: Das Bauwerk verdeckt Satelliten. Unter dem Überbau kann die Position abdriften.
 briefing-compass = Kompass: Stahl verzerrt das Magnetfeld. In der Nähe von Stahlteilen kann die Richtungsanzeige falsch sein und die Position abdriften.
 briefing-wakes = Nachlauf: Hinter Pfeilern und Pylonen ist der Wind schwächer, turbulent und schwankend. An den Kanten des Überbaus ändert er sich plötzlich, und darunter ist er schneller.

@@ -54,6 +54,8 @@ problem-at-easiest = ungültig auf der leichtesten Stufe: { $key } = { $value }:
 problem-at-hardest = ungültig auf der schwersten Stufe: { $key } = { $value }: { $problem }
 problem-at-level = auf Stufe { $level }: { $problem }
 problem-close-path = die Bahn der Aufgabe { $task } „{ $name }“ führt zu nah an { $object } vorbei, bei Ost { $east } m, Nord { $north } m, Höhe { $up } m
+problem-close-drone = die Bahn der Drohne { $name } führt zu nah an { $object } vorbei, bei Ost { $east } m, Nord { $north } m, Höhe { $up } m
+problem-point-repeated = Punkt { $point } liegt dort, wo Punkt { $before } liegt
 problem-place-far = Standort { $place } ist { $distance } m vom Landeplatz entfernt
 problem-place-on-pad = Standort { $place } ist auf dem Landeplatz
 problem-place-near = Standort { $place } ist { $distance } m von Standort { $other } entfernt
@@ -67,6 +69,11 @@ problem-obstacle-water = das Wasser
 problem-obstacle-bridge = eine Brücke
 problem-obstacle-pad = der Landeplatz
 problem-obstacle-truck = das Einsatzfahrzeug
+
+problem-obstacle-ground = dem Boden
+problem-obstacle-lake = dem Wasser
+problem-obstacle-start = dem Landeplatz
+problem-obstacle-others = Fahrzeugen oder Personen
 
 problem-allowed-text = Text
 problem-allowed-texts = Liste von Texten
@@ -125,6 +132,8 @@ problem-allowed-clearance = mindestens { $needed } m für { $aircraft }: die Hä
 problem-allowed-far = höchstens { $most } m vom Landeplatz
 problem-allowed-pad-edge = mindestens { $least } m vom Rand des Landeplatzes
 problem-allowed-apart = mindestens { $least } m von jedem anderen Standort
+problem-allowed-from-point = mindestens { $least } m vom Punkt davor
+problem-allowed-point-count = höchstens { $most } Punkte
 problem-allowed-land = an Land, frei von Wasser, Brücken, Landeplatz und Fahrzeug
 problem-allowed-height = Höhe { $up } ± { $most } m an dieser Stelle
 problem-allowed-way = ein gerader Weg über Land, ohne Hindernisse

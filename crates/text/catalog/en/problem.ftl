@@ -57,6 +57,8 @@ problem-at-easiest = invalid at the easiest level: { $key } = { $value }: { $pro
 problem-at-hardest = invalid at the hardest level: { $key } = { $value }: { $problem }
 problem-at-level = at level { $level }: { $problem }
 problem-close-path = the path of task { $task } '{ $name }' passes too close to { $object } at east { $east } m, north { $north } m, up { $up } m
+problem-close-drone = the path of drone { $name } passes too close to { $object } at east { $east } m, north { $north } m, up { $up } m
+problem-point-repeated = point { $point } is where point { $before } is
 problem-place-far = place { $place } is { $distance } m from the landing pad
 problem-place-on-pad = place { $place } is on the landing pad
 problem-place-near = place { $place } is { $distance } m from place { $other }
@@ -71,6 +73,12 @@ problem-obstacle-water = the water
 problem-obstacle-bridge = a bridge
 problem-obstacle-pad = the landing pad
 problem-obstacle-truck = the truck
+
+# Obstacles of a drone.
+problem-obstacle-ground = ground
+problem-obstacle-lake = water
+problem-obstacle-start = pad
+problem-obstacle-others = vehicles or people
 
 # Allowed values.
 problem-allowed-text = text
@@ -130,6 +138,8 @@ problem-allowed-clearance = at least { $needed } m for { $aircraft }: half its {
 problem-allowed-far = at most { $most } m from the landing pad
 problem-allowed-pad-edge = at least { $least } m from the edge of the landing pad
 problem-allowed-apart = at least { $least } m from every other place
+problem-allowed-from-point = at least { $least } m from the point before it
+problem-allowed-point-count = at most { $most } points
 problem-allowed-land = on land, clear of water, bridges, the landing pad and the truck
 problem-allowed-height = up { $up } ± { $most } m at this point
 problem-allowed-way = a straight path over land, clear of obstacles

@@ -33,6 +33,10 @@ briefing-pedestrians = { $count ->
         [one] { $count } peatón
        *[other] { $count } peatones
     }
+briefing-drones = { $count ->
+        [one] { $count } dron más
+       *[other] { $count } drones más
+    }
 
 briefing-hover = vuelo estacionario en un punto
 briefing-place = { $kind ->
@@ -88,6 +92,10 @@ briefing-people = Personas: { $count ->
         [one] { $count } peatón
        *[other] { $count } peatones
     } en las aceras. Nunca vuele sobre personas.
+briefing-other-drones = Otros drones: { $count ->
+        [one] { $count } dron vuela
+       *[other] { $count } drones vuelan
+    } aquí por una trayectoria fija y no se aparta. Vigílelo y manténgase a distancia.
 briefing-satellites = GNSS: la estructura bloquea los satélites. Bajo el tablero, la posición puede derivar.
 briefing-compass = Brújula: el acero distorsiona el campo magnético. Cerca de elementos de acero, el rumbo indicado puede desviarse y la posición, derivar.
 briefing-wakes = Estelas: detrás de pilas y torres, el viento es más débil y turbulento, y oscila. En los bordes del tablero cambia de repente, y debajo de él es más rápido.

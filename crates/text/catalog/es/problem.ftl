@@ -54,6 +54,8 @@ problem-at-easiest = no válido en el nivel más fácil: { $key } = { $value }: 
 problem-at-hardest = no válido en el nivel más difícil: { $key } = { $value }: { $problem }
 problem-at-level = en el nivel { $level }: { $problem }
 problem-close-path = la trayectoria de la tarea { $task } «{ $name }» pasa demasiado cerca de { $object }, en este { $east } m, norte { $north } m, altura { $up } m
+problem-close-drone = la trayectoria del dron { $name } pasa demasiado cerca de { $object }, en este { $east } m, norte { $north } m, altura { $up } m
+problem-point-repeated = el punto { $point } está donde está el punto { $before }
 problem-place-far = el lugar { $place } está a { $distance } m de la plataforma de aterrizaje
 problem-place-on-pad = el lugar { $place } está en la plataforma de aterrizaje
 problem-place-near = el lugar { $place } está a { $distance } m del lugar { $other }
@@ -67,6 +69,11 @@ problem-obstacle-water = el agua
 problem-obstacle-bridge = un puente
 problem-obstacle-pad = la plataforma de aterrizaje
 problem-obstacle-truck = el vehículo
+
+problem-obstacle-ground = el suelo
+problem-obstacle-lake = el agua
+problem-obstacle-start = la plataforma de aterrizaje
+problem-obstacle-others = vehículos o personas
 
 problem-allowed-text = texto
 problem-allowed-texts = lista de textos
@@ -125,6 +132,8 @@ problem-allowed-clearance = { $needed } m como mínimo para { $aircraft }: la mi
 problem-allowed-far = a { $most } m de la plataforma de aterrizaje como máximo
 problem-allowed-pad-edge = a { $least } m del borde de la plataforma de aterrizaje como mínimo
 problem-allowed-apart = a { $least } m de cualquier otro lugar como mínimo
+problem-allowed-from-point = a { $least } m del punto anterior como mínimo
+problem-allowed-point-count = { $most } puntos como máximo
 problem-allowed-land = en tierra, sin agua, puentes, plataforma de aterrizaje ni vehículo
 problem-allowed-height = altura { $up } ± { $most } m en este punto
 problem-allowed-way = un camino recto por tierra, sin obstáculos

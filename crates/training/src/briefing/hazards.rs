@@ -33,6 +33,9 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing], 
     if traffic.pedestrians > 0 {
         lines.push(text!(language, "briefing-people", count = traffic.pedestrians));
     }
+    if !scenario.drones.is_empty() {
+        lines.push(text!(language, "briefing-other-drones", count = scenario.drones.len()));
+    }
     if scenario.hazards.sky {
         lines.push(text!(language, "briefing-real-sky"));
     } else if scenario.rules.gnss_shadow {

@@ -154,7 +154,9 @@ fn traffic_words(scenario: &Scenario, language: Language) -> String {
     let cars = (traffic.cars > 0).then(|| text!(language, "briefing-cars", count = traffic.cars));
     let trucks = (traffic.trucks > 0).then(|| text!(language, "briefing-trucks", count = traffic.trucks));
     let pedestrians = (traffic.pedestrians > 0).then(|| text!(language, "briefing-pedestrians", count = traffic.pedestrians));
-    [cars, trucks, pedestrians].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    let drones = scenario.drones.len();
+    let drones = (drones > 0).then(|| text!(language, "briefing-drones", count = drones));
+    [cars, trucks, pedestrians, drones].into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
 fn counts(scenario: &Scenario, language: Language) -> Vec<String> {

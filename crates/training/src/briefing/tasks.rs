@@ -51,7 +51,7 @@ impl TaskBriefing {
             stand_off_m: task.stand_off.as_ref().map(|stand_off| (stand_off.recommended_m, stand_off.tolerance_m)),
             threshold_m: task.threshold_m,
             lamp: task.dark,
-            clearance_m: site.min_path_clearance(task, MAX_CLEARANCE_M).map(|(_, near)| near.distance_m),
+            clearance_m: site.min_path_clearance(task.segments(), MAX_CLEARANCE_M).map(|(_, near)| near.distance_m),
         }
     }
 }

@@ -22,6 +22,11 @@ static MESSAGES: LazyLock<SentenceTable> = LazyLock::new(|| {
             let (task, name, object) = (v[0], v[1], v[2]);
             text!(l, "problem-close-path", task = task, name = name, object = object, east = v[3], north = v[4], up = v[5])
         }),
+        Sentence::new(5, |l, v| {
+            let (name, object) = (v[0], drone_obstacle_words(l, v[1]));
+            text!(l, "problem-close-drone", name = name, object = object, east = v[2], north = v[3], up = v[4])
+        }),
+        Sentence::new(2, |l, v| text!(l, "problem-point-repeated", point = v[0], before = v[1])),
         Sentence::new(2, |l, v| text!(l, "problem-place-in", place = v[0], obstacle = obstacle_words(l, v[1]))),
         Sentence::new(3, |l, v| text!(l, "problem-way", obstacle = obstacle_words(l, v[0]), east = v[1], north = v[2])),
         Sentence::new(0, |l, _| text!(l, "problem-out-of-range")),
@@ -95,6 +100,16 @@ static OBSTACLES: LazyLock<SentenceTable> = LazyLock::new(|| {
     ])
 });
 
+/// Obstacles in the messages about the paths of drones that have no name of their own.
+static DRONE_OBSTACLES: LazyLock<SentenceTable> = LazyLock::new(|| {
+    SentenceTable::new([
+        Sentence::new(0, |l, _| text!(l, "problem-obstacle-ground")),
+        Sentence::new(0, |l, _| text!(l, "problem-obstacle-lake")),
+        Sentence::new(0, |l, _| text!(l, "problem-obstacle-start")),
+        Sentence::new(0, |l, _| text!(l, "problem-obstacle-others")),
+    ])
+});
+
 /// Allowed values that are not those of a documented key ([`translated_allowed`]). Those with more words come first.
 static ALLOWED: LazyLock<SentenceTable> = LazyLock::new(|| {
     SentenceTable::new([
@@ -162,6 +177,8 @@ static ALLOWED: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(1, |l, v| text!(l, "problem-allowed-far", most = v[0])),
         Sentence::new(1, |l, v| text!(l, "problem-allowed-pad-edge", least = v[0])),
         Sentence::new(1, |l, v| text!(l, "problem-allowed-apart", least = v[0])),
+        Sentence::new(1, |l, v| text!(l, "problem-allowed-from-point", least = v[0])),
+        Sentence::new(1, |l, v| text!(l, "problem-allowed-point-count", most = v[0])),
         Sentence::new(0, |l, _| text!(l, "problem-allowed-land")),
         Sentence::new(2, |l, v| text!(l, "problem-allowed-height", up = v[0], most = v[1])),
         Sentence::new(0, |l, _| text!(l, "problem-allowed-way")),
@@ -233,6 +250,10 @@ fn message_words(language: Language, english: &str) -> String {
 
 fn obstacle_words(language: Language, english: &str) -> String {
     translated_or_same(&OBSTACLES, language, english)
+}
+
+fn drone_obstacle_words(language: Language, english: &str) -> String {
+    translated_or_same(&DRONE_OBSTACLES, language, english)
 }
 
 /// The English texts are composed while the table is created, so they must not need it.
@@ -335,6 +356,12 @@ mod tests {
             "auf Stufe 9: die Bahn der Aufgabe 3 „Pier“ führt zu nah an arch/rib (144) vorbei, bei Ost 1.5 m, Nord -2.0 m, Höhe 30.0 m \
              (zulässig: mindestens 0.79 m für phantom2: die Hälfte der 0.59 m von Spitze zu Spitze plus 0.5 m)"
         );
+        let drone = "the path of drone survey passes too close to vehicles or people at east 1.5 m, north -2.0 m, up 30.0 m";
+        assert_eq!(
+            german(drone, "").text,
+            "die Bahn der Drohne survey führt zu nah an Fahrzeugen oder Personen vorbei, bei Ost 1.5 m, Nord -2.0 m, Höhe 30.0 m"
+        );
+        assert_eq!(german("point 3 is where point 2 is", "at least 0.1 m from the point before it").language, Language::German);
         assert_eq!(german("place 2 is in or too close to the water", "").text, "Standort 2: das Wasser ist dort oder zu nah");
         let at_end = german("invalid at the easiest level: wind.speed_m_s = 90: out of range", "0 to 30");
         let words = "ungültig auf der leichtesten Stufe: wind.speed_m_s = 90: außerhalb des Bereichs (zulässig: 0 bis 30)";

@@ -42,6 +42,7 @@ fn heading(language: Language, id: &str) -> String {
         "tasks" => text!(language, "editor-section-tasks"),
         "defects" => text!(language, "editor-section-defects"),
         "traffic" => text!(language, "editor-section-traffic"),
+        "drones" => text!(language, "editor-section-drones"),
         "wind" => text!(language, "editor-section-wind"),
         "gusts" => text!(language, "editor-section-gusts"),
         "light" => text!(language, "editor-section-light"),
@@ -80,6 +81,7 @@ fn add_label(language: Language, repeated: &str) -> Option<String> {
     match repeated {
         "tasks" => Some(text!(language, "editor-add-task")),
         "bridges" => Some(text!(language, "editor-add-bridge")),
+        "drones" => Some(text!(language, "editor-add-drone")),
         "wind.events" => Some(text!(language, "editor-add-gust")),
         _ => None,
     }

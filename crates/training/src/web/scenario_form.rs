@@ -79,6 +79,12 @@ const LAYOUT: &[Layout] = &[
         tables: &["traffic"],
     },
     Layout {
+        id: "drones",
+        repeated: "drones",
+        main: &["drones[].name", "drones[].vehicle", "drones[].points_m", "drones[].speed_m_s", "drones[].repeat"],
+        tables: &["drones[]"],
+    },
+    Layout {
         id: "wind",
         repeated: "",
         main: &["wind.level", "wind.speed_m_s", "wind.from_deg", "wind.turbulence"],

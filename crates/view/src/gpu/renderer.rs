@@ -202,7 +202,7 @@ impl Renderer {
             let copies: Vec<Instance> = moving.iter().filter(|m| m.0 == model).map(|m| m.1).collect();
             MeshInstances::new(gpu, &copies).map(|copies| (model, copies))
         };
-        MoverModel::ALL.into_iter().filter_map(of).collect()
+        MoverModel::all(self.models.len()).filter_map(of).collect()
     }
 
     fn draw_maps(
@@ -334,8 +334,8 @@ impl Renderer {
         pass.draw(0..3, 0..1);
         counts.draw_calls += 1;
         pass.set_pipeline(&self.pipelines.translucent);
-        for (model, copies) in moving.iter().filter(|(model, _)| *model == MoverModel::PropellerDisk) {
-            let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
+        for (model, copies) in moving.iter().filter(|(model, _)| model.is_translucent()) {
+            let Some(Some(solid)) = self.models.get(model.index()) else { continue };
             count(&mut counts, solid.triangles(), copies);
             solid.draw(&mut pass, copies);
         }
@@ -364,8 +364,8 @@ fn solids<'a>(
     models: &'a [Option<GpuMesh>],
     moving: &'a [(MoverModel, MeshInstances)],
 ) -> impl Iterator<Item = (&'a GpuMesh, &'a MeshInstances)> {
-    let of = |(model, copies): &'a (MoverModel, MeshInstances)| Some((models.get(*model as usize)?.as_ref()?, copies));
-    moving.iter().filter(|(model, _)| *model != MoverModel::PropellerDisk).filter_map(of)
+    let of = |(model, copies): &'a (MoverModel, MeshInstances)| Some((models.get(model.index())?.as_ref()?, copies));
+    moving.iter().filter(|(model, _)| !model.is_translucent()).filter_map(of)
 }
 
 /// Creates the shadow map array, with at least two layers because some drivers do not treat a single layer as an array.

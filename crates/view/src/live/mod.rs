@@ -4,6 +4,7 @@
 
 pub mod clock;
 mod estimate;
+mod other_traces;
 mod series;
 mod trace;
 mod video;
@@ -17,9 +18,11 @@ use super::scene::DronePose;
 use super::stage::{HudInputs, LIFTOFF_HEIGHT_M, SceneMoment};
 use clock::Playhead;
 use estimate::EstimatedPose;
+use other_traces::OtherTraces;
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::continuity::RESTART_CONFIRM_COUNT;
 use spandrel_mavlink::contract::continuity::RESTART_THRESHOLD;
+use spandrel_mavlink::contract::other_drones::{self, OtherDrone};
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavCmd, MavMessage};
 use spandrel_mavlink::station;
@@ -27,10 +30,13 @@ use spandrel_mavlink::telemetry::sample::{self, Sample, SampleContent, SampleVal
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
+use spandrel_model::site::aircraft_hull::{BodyProbe, hull_radius_m};
 use spandrel_model::site::changes::SiteChanges;
+use spandrel_model::site::drones::{LiveDrone, live_drone_object};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use std::collections::{BTreeSet, VecDeque};
+use std::sync::Arc;
 
 /// System ID of a viewer, distinct from those of vehicles and ground stations (255 is QGroundControl, 254 is `spandrel
 /// rc`).
@@ -92,6 +98,7 @@ pub struct LiveFlight {
 struct SimulatorRun {
     feed: Feed,
     trace: MotionHistory,
+    others: OtherTraces,
     flown: FlownPath,
     lamp: bool,
     armed: bool,
@@ -117,9 +124,26 @@ pub struct LiveMoment {
     pub hud: HudInputs,
     /// Bridge closures and walks of the inspector.
     pub site_changes: SiteChanges,
+    /// Other vehicles that share the site.
+    pub others: Vec<OtherDrone>,
 }
 
 impl LiveMoment {
+    /// Returns the other vehicles as parts of the site. They have the hull of this aircraft.
+    #[must_use]
+    pub fn live_drones(&self, parts: &Arc<[BodyProbe]>) -> Vec<LiveDrone> {
+        let here_m = self.moment.drone.pose.position_m;
+        let drone = |other: &OtherDrone| LiveDrone {
+            object: live_drone_object(other.system_id.saturating_sub(1)),
+            parts: Arc::clone(parts),
+            reach_m: hull_radius_m(parts),
+            position_m: here_m + other.offset_m.enu(),
+            attitude: other.attitude,
+            armed: other.armed,
+        };
+        self.others.iter().map(drone).collect()
+    }
+
     /// Returns the time since lift-off, s; 0 before it.
     #[must_use]
     pub fn flown_s(&self) -> f64 {
@@ -229,6 +253,11 @@ impl LiveFlight {
         }
         if matches!(frame.message, Some(MavMessage::OBSTACLE_DISTANCE(_))) {
             self.next_obstacles = self.next_obstacles.map(|_| wall + REQUEST_INTERVAL);
+        }
+        if let Some(MavMessage::DEBUG_FLOAT_ARRAY(array)) = &frame.message
+            && let Some(others) = frame.message.as_ref().and_then(other_drones::of)
+        {
+            self.state.others.push(SimTime::from_us(i64::try_from(array.time_usec).unwrap_or(0)), others);
         }
         if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.next_takeoff_request)
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
@@ -440,7 +469,7 @@ impl LiveFlight {
             blink_time_s: wall.s(),
             is_frozen: state.is_frozen,
         };
-        Some(LiveMoment { moment, hud: told, site_changes: state.site_changes.clone() })
+        Some(LiveMoment { moment, hud: told, site_changes: state.site_changes.clone(), others: state.others.at(at) })
     }
 }
 

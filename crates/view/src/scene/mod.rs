@@ -26,6 +26,7 @@ use spandrel_model::frames::{Enu, Frd, Vec3};
 use spandrel_model::math;
 use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
+use spandrel_model::site::drones::SiteDrone;
 use spandrel_model::site::movers::MoverKind;
 use spandrel_model::site::{QueryTime, Site};
 use spandrel_model::vehicle::Vehicle;
@@ -41,17 +42,43 @@ pub enum MoverModel {
     Truck,
     /// A person.
     Person,
-    /// The aircraft without its propellers.
-    Drone,
-    /// One propeller.
-    Propeller,
-    /// The motion-blur disk of a fast-spinning propeller.
-    PropellerDisk,
+    /// An aircraft without its propellers. The number is its place in the scene's list of aircraft; 0 is the trainee's.
+    Drone(u8),
+    /// One propeller of this aircraft.
+    Propeller(u8),
+    /// The motion-blur disk of this aircraft's fast-spinning propeller.
+    PropellerDisk(u8),
 }
 
 impl MoverModel {
-    /// All models in order.
-    pub const ALL: [Self; 6] = [Self::Car, Self::Truck, Self::Person, Self::Drone, Self::Propeller, Self::PropellerDisk];
+    /// Models that every scene has, in the order of their meshes. Those of the aircraft follow.
+    const COMMON: [Self; 3] = [Self::Car, Self::Truck, Self::Person];
+
+    /// Returns all models of a scene with this number of meshes, in the order of [`Scene::models`].
+    pub fn all(mesh_count: usize) -> impl Iterator<Item = Self> {
+        let of_aircraft = (0..u8::MAX).flat_map(|k| [Self::Drone(k), Self::Propeller(k), Self::PropellerDisk(k)]);
+        Self::COMMON.into_iter().chain(of_aircraft).take(mesh_count)
+    }
+
+    /// Returns the place of the model's mesh in [`Scene::models`].
+    #[must_use]
+    pub fn index(self) -> usize {
+        let of_aircraft = |k: u8, part: usize| Self::COMMON.len() + 3 * usize::from(k) + part;
+        match self {
+            Self::Car => 0,
+            Self::Truck => 1,
+            Self::Person => 2,
+            Self::Drone(k) => of_aircraft(k, 0),
+            Self::Propeller(k) => of_aircraft(k, 1),
+            Self::PropellerDisk(k) => of_aircraft(k, 2),
+        }
+    }
+
+    /// Returns whether the model is translucent.
+    #[must_use]
+    pub fn is_translucent(self) -> bool {
+        matches!(self, Self::PropellerDisk(_))
+    }
 }
 
 /// Pose of the aircraft for rendering.
@@ -123,7 +150,7 @@ pub struct Scene {
     pub ground_colors: Option<GroundColors>,
     /// Defects.
     pub patches: Vec<DefectPatch>,
-    /// Meshes in the order of [`MoverModel::ALL`].
+    /// Meshes in the order of [`MoverModel::all`].
     pub models: Vec<Mesh>,
     /// Whether rain or snow changes the surfaces.
     pub is_weathered: bool,
@@ -133,9 +160,15 @@ pub struct Scene {
     pub outline: Arc<SiteOutline>,
     /// Bounding sphere of all structures, m.
     pub bounds_m: (Vec3<Enu>, f64),
-    rotors: Vec<(Vec3<Frd>, f64)>,
+    /// Propellers of each aircraft: that of the trainee, and those of the other drones.
+    airframes: Vec<Propellers>,
+    /// Aircraft of each drone of the site.
+    drone_airframes: Vec<u8>,
     water_m: f64,
 }
+
+/// Hubs and directions of the propellers of an aircraft.
+type Propellers = Vec<(Vec3<Frd>, f64)>;
 
 /// Factor for the ground's error tolerance in the lake's reflection, which has fewer pixels and is blurred by waves.
 const LAKE_TOLERANCE_FACTOR: f64 = 4.0;
@@ -189,24 +222,21 @@ impl Scene {
         report(LoadingStep::Plants);
         parts.extend(plants::parts(scenario, site, quality));
         report(LoadingStep::Water);
+        let (vehicles, drone_airframes) = distinct_aircraft(site, vehicle);
+        let common = [props::car(rounds), props::truck(rounds), props::person(rounds)];
+        let of_aircraft = |vehicle: &&Vehicle| [drone::body(vehicle), drone::propeller(vehicle), drone::propeller_disk(vehicle)];
         Self {
             parts,
             water: ground::water(scenario, site, &bake, &shown),
             ground_colors: GroundColors::new(scenario, site),
             patches: defects::patches(site, sun),
-            models: vec![
-                props::car(rounds),
-                props::truck(rounds),
-                props::person(rounds),
-                drone::body(vehicle),
-                drone::propeller(vehicle),
-                drone::propeller_disk(vehicle),
-            ],
+            models: common.into_iter().chain(vehicles.iter().flat_map(of_aircraft)).collect(),
             is_weathered: scenario.weather.rain_mm_h > 0.0 || scenario.weather.snow_mm_h > 0.0,
             paths: PathGuide::new(scenario),
             outline: Arc::new(SiteOutline::new(scenario, site)),
             bounds_m: bounds(site),
-            rotors: vehicle.rotors.iter().map(|rotor| (rotor.position_m, rotor.spin)).collect(),
+            airframes: vehicles.iter().map(|vehicle| propellers(vehicle)).collect(),
+            drone_airframes,
             water_m: scenario.terrain.water_level_m,
         }
     }
@@ -253,28 +283,55 @@ impl Scene {
             MoverModel::Person,
             place_on_ground(inspector.feet_m, inspector.forward, OPEN_AIR_LIGHT).with_material(props::VEST_COLOR),
         ));
+        for (other, airframe) in site.drones().iter().zip(&self.drone_airframes) {
+            let pose = Pose { position_m: other.at(at).position_m, ned_from_frd: other.attitude() };
+            self.aircraft(site, (*airframe, &DronePose { pose, spinning: true }), at, &mut all);
+        }
+        for other in site.live_drones() {
+            let pose = Pose { position_m: other.position_m, ned_from_frd: other.attitude };
+            self.aircraft(site, (0, &DronePose { pose, spinning: other.armed }), at, &mut all);
+        }
         if let Some(drone) = drone {
-            self.aircraft(site, drone, at, &mut all);
+            self.aircraft(site, (0, drone), at, &mut all);
         }
         all
     }
 
-    fn aircraft(&self, site: &Site, drone: &DronePose, at: QueryTime, out: &mut Vec<(MoverModel, Instance)>) {
+    fn aircraft(&self, site: &Site, (airframe, drone): (u8, &DronePose), at: QueryTime, out: &mut Vec<(MoverModel, Instance)>) {
         let axis = |v: Vec3<Frd>| (drone.pose.ned_from_frd * v).enu();
         let axes = [axis(Vec3::new(1.0, 0.0, 0.0)), axis(Vec3::new(0.0, 1.0, 0.0)), axis(Vec3::new(0.0, 0.0, 1.0))];
         let around = bake::around(site, drone.pose.position_m, at);
-        out.push((MoverModel::Drone, Instance::placed(drone.pose.position_m, axes, around)));
-        for (hub_m, spin) in &self.rotors {
+        out.push((MoverModel::Drone(airframe), Instance::placed(drone.pose.position_m, axes, around)));
+        for (hub_m, spin) in self.airframes.get(usize::from(airframe)).into_iter().flatten() {
             let hub = drone.pose.position_m + axis(*hub_m);
             let angle = if drone.spinning { -spin * DISPLAYED_ROTOR_SPEED_RAD_S * at.s() } else { 0.6 };
             let (s, c) = math::sin_cos(angle);
             let turned = [axes[0] * c + axes[1] * s, axes[1] * c - axes[0] * s, axes[2]];
-            out.push((MoverModel::Propeller, Instance::placed(hub, turned, around)));
+            out.push((MoverModel::Propeller(airframe), Instance::placed(hub, turned, around)));
             if drone.spinning {
-                out.push((MoverModel::PropellerDisk, Instance::placed(hub, axes, around)));
+                out.push((MoverModel::PropellerDisk(airframe), Instance::placed(hub, axes, around)));
             }
         }
     }
+}
+
+/// Returns the trainee's aircraft and the other types of aircraft at the site, and which of them each drone of the site is.
+fn distinct_aircraft<'a>(site: &'a Site, own: &'a Vehicle) -> (Vec<&'a Vehicle>, Vec<u8>) {
+    let mut vehicles = vec![own];
+    let place = |drone: &'a SiteDrone| {
+        let known = vehicles.iter().position(|vehicle| *vehicle == drone.vehicle());
+        let place = known.unwrap_or_else(|| {
+            vehicles.push(drone.vehicle());
+            vehicles.len() - 1
+        });
+        u8::try_from(place).unwrap_or(0)
+    };
+    let places = site.drones().iter().map(place).collect();
+    (vehicles, places)
+}
+
+fn propellers(vehicle: &Vehicle) -> Propellers {
+    vehicle.rotors.iter().map(|rotor| (rotor.position_m, rotor.spin)).collect()
 }
 
 /// Indirect light in open air: the whole sky from above, half of the ground's reflected light from below (estimate).

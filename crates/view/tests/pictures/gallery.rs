@@ -7,7 +7,7 @@ use spandrel_model::defect_codes;
 use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
-use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::scenario::{DroneSpec, PlacedDefect};
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk_job, girder_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
@@ -107,6 +107,32 @@ fn regress_crew_and_drone_at_the_pad() {
         let picture = studio.draw(&shot);
         wall.check(name, &picture);
     }
+    wall.assert_no_errors();
+}
+
+/// Two other drones over the lake: one of another type in front, and one of the trainee's type behind it.
+#[test]
+fn regress_other_drones_at_the_site() {
+    let mut job = sunny_job();
+    let other = |name: &str, vehicle, heading_deg, place| DroneSpec {
+        name: name.into(),
+        vehicle,
+        points_m: vec![place],
+        speed_m_s: 3.0,
+        heading_deg,
+        at_s: 0.0,
+        spread_s: 0.0,
+        wait_s: 0.0,
+        repeat: false,
+    };
+    job.drones =
+        vec![other("survey", "m30", 60.0, at(-56.4, -63.0, 9.6)), other("film", "phantom2", 150.0, at(-52.5, -60.5, 10.5))];
+    let mut studio = Studio::new(job, 7, "medium", SimTime::from_ms(95_000));
+    studio.without_defects();
+    let mut wall = Gallery::default();
+    let shot = studio.seen(at(-59.0, -66.0, 9.5), at(-50.0, -56.0, 10.0), 50.0, false, SCENE_PX);
+    let picture = studio.draw(&shot);
+    wall.check("other-drones", &picture);
     wall.assert_no_errors();
 }
 

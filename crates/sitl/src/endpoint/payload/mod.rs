@@ -39,6 +39,8 @@ use std::ops::Range;
 
 /// Rate of the messages about hazards, Hz.
 const HAZARD_RATE_HZ: f64 = 2.0;
+/// Rate of the message about other vehicles at the site, Hz (estimate: enough for displays that interpolate).
+const OTHER_DRONES_RATE_HZ: f64 = 20.0;
 
 /// State of the equipment interface.
 #[derive(Debug, Clone)]
@@ -52,6 +54,7 @@ pub struct PayloadLink {
     files: FileServer,
     scoring: ScoringFeed,
     hazards_due: Schedule,
+    other_drones_due: Schedule,
     /// For each link, indices of the image records that remain to be resent.
     image_requests: BTreeMap<LinkId, Range<usize>>,
 }
@@ -69,6 +72,7 @@ impl PayloadLink {
             files,
             scoring: ScoringFeed::new(),
             hazards_due: Schedule::new(SimTime::ZERO, HAZARD_RATE_HZ),
+            other_drones_due: Schedule::new(SimTime::ZERO, OTHER_DRONES_RATE_HZ),
             image_requests: BTreeMap::new(),
         }
     }

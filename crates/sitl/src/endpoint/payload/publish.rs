@@ -7,9 +7,12 @@ use super::streams::camera::{capture_record, field_of_view};
 use crate::endpoint::component_ids::{CAMERA, TELEMETRY_RADIO};
 use crate::endpoint::files;
 use crate::endpoint::link::{LinkId, LinkKind, Links, PeerLink};
+use crate::physics::RigidState;
 use spandrel_mavlink::contract::named_values::NamedValue;
+use spandrel_mavlink::contract::other_drones::{self, OtherDrone};
 use spandrel_mavlink::contract::radio_status;
 use spandrel_mavlink::dialect::{MavMessage, MavResult};
+use spandrel_model::site::drones::{LiveDrone, live_drone_number};
 
 /// Noise and interference at the receivers of the control link, dBm (estimate: 10 dB below the sensitivity).
 const NOISE_DBM: f64 = -104.0;
@@ -52,6 +55,21 @@ impl PayloadLink {
             if let Some(status) = &status {
                 link.stream(TELEMETRY_RADIO, status);
             }
+            if !link.is_limited() && link.receives_truth() {
+                link.stream(self.components.scoring, &message);
+            }
+        }
+    }
+
+    /// Sends the positions of the other vehicles that share the site to clients that receive the scoring data, if it is due.
+    pub(crate) fn send_other_drones(&mut self, input: &PayloadInput, links: &mut Links) {
+        let live = input.site.live_drones();
+        if live.is_empty() || !self.other_drones_due.fire(input.clock.now) {
+            return;
+        }
+        let others: Vec<OtherDrone> = live.iter().filter_map(|drone| other_drone(drone, input.truth)).collect();
+        let message = other_drones::message(&others, input.clock.sim_time_us());
+        for link in links.listeners().filter(|link| link.kind != LinkKind::Autopilot && !link.is_busy()) {
             if !link.is_limited() && link.receives_truth() {
                 link.stream(self.components.scoring, &message);
             }
@@ -126,4 +144,14 @@ impl PayloadLink {
             images.start < images.end
         });
     }
+}
+
+/// Returns another vehicle as seen from this one.
+fn other_drone(drone: &LiveDrone, own: &RigidState) -> Option<OtherDrone> {
+    Some(OtherDrone {
+        system_id: live_drone_number(drone.object)?.checked_add(1)?,
+        armed: drone.armed,
+        offset_m: drone.position_m.ned() - own.position_m,
+        attitude: drone.attitude,
+    })
 }

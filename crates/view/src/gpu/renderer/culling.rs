@@ -53,7 +53,7 @@ impl ShotView {
         let (straight, mirrored) = (self.direct_view(), self.mirrored());
         let shows = |(model, instance): &&(MoverModel, Instance)| {
             let [x, y, z] = instance.rows.map(|row| f64::from(row[3]));
-            let radius_m = model_radii_m.get(*model as usize).copied().unwrap_or(0.0);
+            let radius_m = model_radii_m.get(model.index()).copied().unwrap_or(0.0);
             let ball = BoundingSphere { center_m: Vec3::new(x, y, z), radius_m };
             straight.may_be_visible(&ball) || (self.lake && mirrored.may_be_visible(&ball))
         };
@@ -82,7 +82,7 @@ mod tests {
         let (eye, water_m) = (eye(rise_m), 0.0);
         let (projection, lake) = (eye.view_projection(ASPECT), may_be_visible_in_lake(&eye, ASPECT, water_m));
         let view = ShotView { projection, water_m, eye_m: eye.position_m, lamp: 0, breaking: 0, falling: false, lake };
-        view.visible_objects(all, &[3.0; MoverModel::ALL.len()])
+        view.visible_objects(all, &[3.0; 6])
     }
 
     #[test]

@@ -1,9 +1,8 @@
-//! Collision hull of the aircraft as convex probes: arms, rotor discs or cage, feet and body.
+//! Collision hull of an aircraft as convex probes: arms, rotor discs or cage, feet and body.
 
-use super::state::RigidState;
-use spandrel_model::frames::{Enu, Frd, Vec3};
-use spandrel_model::site::HullProbe;
-use spandrel_model::vehicle::Vehicle;
+use super::query_types::HullProbe;
+use crate::frames::{Enu, Frd, Ned, Rotation, Vec3};
+use crate::vehicle::Vehicle;
 
 /// Half thickness of arms and rotor discs, m (estimate).
 const HALF_THICKNESS_M: f64 = 0.015;
@@ -27,16 +26,16 @@ impl BodyProbe {
         Self { a_m, b_m, radius_m, rotor: None }
     }
 
-    /// Returns the largest distance of any probe from the center of mass, in meters.
+    /// Returns the largest distance of any point of the probe from the center of mass, in meters.
     #[must_use]
     pub fn reach_m(&self) -> f64 {
         self.a_m.norm().max(self.b_m.norm()) + self.radius_m
     }
 
-    /// Returns the probe transformed to the aircraft's pose.
+    /// Returns the probe at a pose of the aircraft.
     #[must_use]
-    pub fn transformed(&self, rigid: &RigidState) -> HullProbe {
-        let place = |p: Vec3<Frd>| -> Vec3<Enu> { (rigid.position_m + rigid.attitude * p).enu() };
+    pub fn transformed(&self, position_m: Vec3<Ned>, attitude: Rotation<Frd, Ned>) -> HullProbe {
+        let place = |p: Vec3<Frd>| -> Vec3<Enu> { (position_m + attitude * p).enu() };
         if self.a_m == self.b_m {
             HullProbe::Ball { center_m: place(self.a_m), radius_m: self.radius_m }
         } else {
@@ -64,6 +63,12 @@ pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
         out.extend(disc(rotor.position_m, vehicle.rotor.radius_m).map(|p| BodyProbe { rotor: Some(index), ..p }));
     }
     out
+}
+
+/// Returns the radius of the sphere about the center of mass that contains all probes, in meters.
+#[must_use]
+pub fn hull_radius_m(probes: &[BodyProbe]) -> f64 {
+    probes.iter().map(BodyProbe::reach_m).fold(0.0, f64::max)
 }
 
 /// Returns two crossed diameters of a rotor disc, one radial and one tangential.
