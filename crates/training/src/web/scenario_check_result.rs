@@ -234,6 +234,7 @@ mod tests {
             turn_deg: 0.0,
             default_element: None,
             limits: ShapeLimits { tolerance_m: 0.01, concave: ConcaveShape::Mesh },
+            cloud: CloudLimits::default(),
         };
         import(&ImportSource { file: "block.glb", format, bytes: &file, load: &none, elements }, &options).unwrap()
     }
