@@ -62,16 +62,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             source: TerrainSource::Flat { height_m: 0.0 },
             photo: None,
         },
-        ground_team: GroundTeam {
-            pad_m: Vec3::new(0.0, 0.0, 0.0),
-            pad_heading_deg: 0.0,
-            pad_half_m: 1.0,
-            inspector_m: Vec3::new(-3.0, 0.0, 0.0),
-            places_m: Vec::new(),
-            truck_m: Vec3::new(-6.0, 0.0, 0.0),
-            truck_heading_deg: 0.0,
-            home_radius_m: 5.0,
-        },
+        ground_team: ground_team(),
         bridges: Vec::new(),
         tasks,
         defects: DefectSpec { size_factor: 1.0, ..DefectSpec::default() },
@@ -117,6 +108,19 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         form: None,
         difficulty: None,
         crc: CRC,
+    }
+}
+
+fn ground_team() -> GroundTeam {
+    GroundTeam {
+        pad_m: Vec3::new(0.0, 0.0, 0.0),
+        pad_heading_deg: 0.0,
+        pad_half_m: 1.0,
+        inspector_m: Vec3::new(-3.0, 0.0, 0.0),
+        places_m: Vec::new(),
+        truck_m: Vec3::new(-6.0, 0.0, 0.0),
+        truck_heading_deg: 0.0,
+        home_radius_m: 5.0,
     }
 }
 

@@ -71,7 +71,7 @@ mod tests {
     fn wire_other_drones_survive_the_link() {
         let drone = |system_id: u8| OtherDrone {
             system_id,
-            armed: system_id % 2 == 0,
+            armed: system_id.is_multiple_of(2),
             offset_m: Vec3::new(0.5 * f64::from(system_id), -2.25, 1.5),
             attitude: Rotation::identity(),
         };
