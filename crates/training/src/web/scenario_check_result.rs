@@ -200,6 +200,7 @@ mod tests {
     use spandrel_model::mesh::part_shapes::{ConcaveShape, PartShape, ShapeLimits};
     use spandrel_model::mesh::reader::ModelFormat;
     use spandrel_model::mesh::surface_mesh::SurfaceMesh;
+    use spandrel_model::mesh::voxel_surface::CloudLimits;
     use spandrel_model::scenario::bridges::element_map::ElementMap;
     use spandrel_model::scenario::bridges::model::ModelPart;
     use spandrel_model::scenario::edit::{Edit, apply};
