@@ -500,9 +500,11 @@ mod tests {
         let pad_m = scenario::read("practice", &shipped_text("practice"), &|_| Err(String::new())).unwrap().ground_team.pad_m;
         let pad = pad_m.array();
         let over = |up: f64| [pad[0], pad[1], pad[2] + up];
-        for (from, to, object) in
-            [([0.0, -40.0, 34.0], [0.0, 40.0, 34.0], "arch/"), (over(30.0), over(-3.0), "ground"), (over(30.0), over(0.7), "pad")]
-        {
+        for (from, to, object) in [
+            ([0.0, -40.0, 34.0], [0.0, 40.0, 34.0], "arch/"),
+            ([-100.0, 40.0, 36.0], [-100.0, 40.0, -9.0], "ground"),
+            (over(30.0), over(0.7), "pad"),
+        ] {
             let problems = job(from, to);
             assert_eq!(problems.len(), 1, "{problems:?}");
             let Problem { key, location, line, message, allowed, .. } = &problems[0];
@@ -514,10 +516,8 @@ mod tests {
             );
             assert!(allowed.starts_with("at least 1.") && allowed.contains(" for m30: half its "), "{allowed}");
         }
-        // Above the deck there is only traffic, up to the height of a truck.
-        let deck = scenario::read("practice", &shipped_text("practice"), &|_| Err(String::new())).unwrap().bridges[0].center_m;
-        let [east, north, up] = deck.array();
-        let low = job([east, north, up + 4.5], [east + 1.0, north, up + 4.5]);
+        // Two meters above the lane, the deck is far enough, but a car is 1.5 m high.
+        let low = job([0.0, 1.8, 36.0], [1.0, 1.8, 36.0]);
         assert!(low.len() == 1 && low[0].message.contains("vehicles or people"), "{low:?}");
     }
 
