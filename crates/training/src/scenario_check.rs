@@ -1,7 +1,6 @@
 //! Checks a scenario beyond its syntax: whether the aircraft fits along the paths, whether the paths of other drones are free,
-//! whether the inspector can stand and walk at the
-//! places, whether the defects can be placed, and what its forms, levels and certification require. `spandrel check` and the
-//! scenario editor show the results.
+//! whether the inspector can stand and walk at the places, whether the defects can be placed, and what its forms, levels and
+//! certification require. `spandrel check` and the scenario editor show the results.
 
 use crate::path_overlap;
 use crate::plan::level_settings;

@@ -32,21 +32,21 @@ impl FlightStep {
         }
     }
 
-    fn title(self, language: Language) -> String {
+    fn words(self, language: Language) -> String {
+        let pct = self.progress_pct();
         match self {
-            Self::Job => text!(language, "window-loading-job"),
-            Self::Monitor => text!(language, "window-loading-monitor"),
-            Self::Simulator => text!(language, "window-loading-simulator"),
-            Self::Scores => text!(language, "window-loading-scores"),
-            Self::Record => text!(language, "window-loading-record"),
-            Self::NextFlights => text!(language, "window-loading-next-flights"),
+            Self::Job => text!(language, "window-loading-job", pct = pct),
+            Self::Monitor => text!(language, "window-loading-monitor", pct = pct),
+            Self::Simulator => text!(language, "window-loading-simulator", pct = pct),
+            Self::Scores => text!(language, "window-loading-scores", pct = pct),
+            Self::Record => text!(language, "window-loading-record", pct = pct),
+            Self::NextFlights => text!(language, "window-loading-next-flights", pct = pct),
         }
     }
 
     /// Returns the message for the window.
     pub fn message(self, language: Language) -> ToWindow {
-        let words = text!(language, "window-flight-loading", what = self.title(language), pct = self.progress_pct());
-        ToWindow::Loading { words }
+        ToWindow::Loading { words: self.words(language) }
     }
 }
 
@@ -60,15 +60,15 @@ mod tests {
             [FlightStep::Job, FlightStep::Monitor, FlightStep::Simulator],
             [FlightStep::Scores, FlightStep::Record, FlightStep::NextFlights],
         ] {
-            assert!(steps.is_sorted_by_key(|step| step.progress_pct()));
+            assert!(steps.windows(2).all(|pair| pair[0].progress_pct() < pair[1].progress_pct()));
             for step in steps {
-                let words = Language::ALL.map(|language| step.message(language));
-                assert!(words[0] != words[1] && words[1] != words[2] && words[0] != words[2], "{words:?}");
+                let [english, german, spanish] = Language::ALL.map(|language| step.words(language));
+                assert!(english != german && german != spanish && english != spanish, "{english}, {german}, {spanish}");
             }
         }
         assert_eq!(
             FlightStep::Simulator.message(Language::English),
-            ToWindow::Loading { words: "Loading simulator ... 50%".into() }
+            ToWindow::Loading { words: "Starting simulator ... 50%".into() }
         );
     }
 }

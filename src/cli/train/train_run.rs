@@ -207,7 +207,8 @@ impl<'a> TrainRun<'a> {
 
     /// Shows in the window what takes time.
     fn report(&mut self, step: FlightStep) {
-        self.send_to_window(&step.message(self.language()));
+        let language = self.language();
+        show_step(&mut self.window, step, language);
     }
 
     /// Shows in the window why a flight cannot start.
@@ -463,7 +464,7 @@ impl<'a> TrainRun<'a> {
             let acknowledged = self.site_check.as_ref().filter(|check| check.choice == *choice);
             let site_check_unix_us = acknowledged.map(|check| check.acknowledged_unix_us);
             let language = self.language();
-            let mut report = |step: FlightStep| self.window.iter_mut().for_each(|window| window.send(&step.message(language)));
+            let mut report = |step: FlightStep| show_step(&mut self.window, step, language);
             let mut flight = FlightProcesses::start(self.args, (choice, site_check_unix_us), self.log, language, &mut report)?;
             expert.into_iter().for_each(|expert| flight.take_over_expert(expert));
             self.station.iter_mut().for_each(|station| station.report_start(choice));
@@ -580,6 +581,12 @@ impl<'a> TrainRun<'a> {
             self.pictures.advance();
             std::thread::sleep(CHECK_INTERVAL);
         }
+    }
+}
+
+fn show_step(window: &mut Option<WindowProcess>, step: FlightStep, language: Language) {
+    if let Some(window) = window {
+        window.send(&step.message(language));
     }
 }
 

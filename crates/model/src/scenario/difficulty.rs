@@ -260,12 +260,13 @@ impl DifficultyTable<'_> {
 fn unmet_condition(quantity: Quantity, own: &[f64], scenario: &Scenario) -> Option<&'static str> {
     let is_physical = scenario.wind.model == WindModel::Physical;
     let defects = &scenario.defects;
+    let has_defects = defects.count > 0 || defects.placed.is_some();
     let (met, condition) = match quantity {
         Quantity::WindSpeed | Quantity::Turbulence => (is_physical, "only with the physical wind model"),
         Quantity::CrownGap => (!own.is_empty() || scenario.bridges.iter().any(is_unread), "only with an arch bridge"),
-        Quantity::Detection => (!own.is_empty() && defects.count > 0, "only with defects and defects.detection_pct"),
+        Quantity::Detection => (!own.is_empty() && has_defects, "only with defects and defects.detection_pct"),
         Quantity::DefectSize => {
-            (defects.mean_detection.is_none() && defects.count > 0, "only with defects and without defects.detection_pct")
+            (defects.mean_detection.is_none() && has_defects, "only with defects and without defects.detection_pct")
         }
         Quantity::HazardSeverity => {
             let HazardSpec { compass, sky, radio, .. } = &scenario.hazards;

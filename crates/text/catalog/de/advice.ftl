@@ -233,7 +233,7 @@ advice-unlit-pictures =
         [tasks] {" "}der Aufgaben { $tasks }
        *[none] {""}
     } war der Scheinwerfer aus, zuerst bei
-    } { $at }: Schalten Sie sie vor dem Bild ein.
+    } { $at }: Schalten Sie ihn vor dem Bild ein.
 advice-pictures-of-nothing = { $taken ->
         [one] Auf Ihrem einzigen Bild, bei { $at }, ist kein neuer Schaden zu sehen
        *[other] Auf { $count } Ihrer { $taken } Bilder ist kein neuer Schaden zu sehen, { $count ->

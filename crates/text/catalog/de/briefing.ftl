@@ -93,9 +93,9 @@ briefing-people = Personen: { $count ->
        *[other] { $count } Fußgänger
     } auf den Gehwegen. Fliegen Sie nie über Personen.
 briefing-other-drones = Andere Drohnen: { $count ->
-        [one] { $count } Drohne fliegt
-       *[other] { $count } Drohnen fliegen
-    } hier auf einer festen Bahn und weicht nicht aus. Achten Sie darauf und halten Sie Abstand.
+        [one] { $count } Drohne fliegt hier auf einer festen Bahn und weicht nicht aus. Behalten Sie sie im Blick und halten Sie Abstand.
+       *[other] { $count } Drohnen fliegen hier auf festen Bahnen und weichen nicht aus. Behalten Sie sie im Blick und halten Sie Abstand.
+    }
 briefing-satellites = GNSS: Das Bauwerk verdeckt Satelliten. Unter dem Überbau kann die Position abdriften.
 briefing-compass = Kompass: Stahl verzerrt das Magnetfeld. In der Nähe von Stahlteilen kann die Richtungsanzeige falsch sein und die Position abdriften.
 briefing-wakes = Nachlauf: Hinter Pfeilern und Pylonen ist der Wind schwächer, turbulent und schwankend. An den Kanten des Überbaus ändert er sich plötzlich, und darunter ist er schneller.

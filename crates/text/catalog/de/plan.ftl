@@ -84,6 +84,7 @@ plan-tasks-over =
        *[other] { $all } Aufgaben
     }
 plan-degrees = { $value } Grad
+plan-limit-per-minute = { $value }-mal pro Minute
 plan-per-minute = { $value }-mal pro Minute
 plan-mainly-sideways = vor allem seitlich
 plan-mainly-vertically = vor allem in der Höhe

@@ -99,9 +99,9 @@ briefing-people = People: { $count ->
        *[other] { $count } pedestrians
     } on the walkways. Never fly above them.
 briefing-other-drones = Other drones: { $count ->
-        [one] { $count } drone flies
-       *[other] { $count } drones fly
-    } here on a fixed path and will not evade. Keep it in sight and stay clear.
+        [one] { $count } drone flies a fixed path here and will not avoid you. Keep it in sight and stay clear.
+       *[other] { $count } drones fly fixed paths here and will not avoid you. Keep them in sight and stay clear.
+    }
 briefing-satellites = GNSS: the structure blocks satellites. Under the deck, the position can drift.
 briefing-compass = Compass: steel distorts the magnetic field. Near steel members, the indicated heading can be wrong, and the position can drift.
 briefing-wakes = Wakes: behind piers and towers, the wind is weaker and turbulent, and it swings from side to side. At the edges of a deck, it changes suddenly, and below the deck it is faster.

@@ -88,6 +88,7 @@ plan-tasks-over =
        *[other] { $all } tasks
     }
 plan-degrees = { $value } degrees
+plan-limit-per-minute = { $value } per minute
 plan-per-minute = { $value } times per minute
 plan-mainly-sideways = mainly sideways
 plan-mainly-vertically = mainly vertically

@@ -84,6 +84,7 @@ plan-tasks-over =
        *[other] { $all } tareas
     }
 plan-degrees = { $value } grados
+plan-limit-per-minute = { $value } veces por minuto
 plan-per-minute = { $value } veces por minuto
 plan-mainly-sideways = sobre todo hacia los lados
 plan-mainly-vertically = sobre todo en altura

@@ -54,7 +54,7 @@ problem-at-easiest = no válido en el nivel más fácil: { $key } = { $value }: 
 problem-at-hardest = no válido en el nivel más difícil: { $key } = { $value }: { $problem }
 problem-at-level = en el nivel { $level }: { $problem }
 problem-close-path = la trayectoria de la tarea { $task } «{ $name }» pasa demasiado cerca de { $object }, en este { $east } m, norte { $north } m, altura { $up } m
-problem-close-drone = la trayectoria del dron { $name } pasa demasiado cerca de { $object }, en este { $east } m, norte { $north } m, altura { $up } m
+problem-close-drone = la trayectoria del dron { $name } deja muy poca separación con { $object }, en este { $east } m, norte { $north } m, altura { $up } m
 problem-point-repeated = el punto { $point } está donde está el punto { $before }
 problem-place-far = el lugar { $place } está a { $distance } m de la plataforma de aterrizaje
 problem-place-on-pad = el lugar { $place } está en la plataforma de aterrizaje

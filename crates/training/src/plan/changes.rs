@@ -6,8 +6,8 @@ use crate::terms::{contact_title, error_label, score_title, task_title};
 use serde::Serialize;
 use spandrel_text::{Language, text};
 
-/// Values that are equal to the shown decimal are reported as unchanged.
-const SHOWN_DECIMAL: f64 = 10.0;
+/// Steps of one between which values are shown: with one decimal.
+const SHOWN_STEPS: f64 = 10.0;
 
 /// The latest session compared with the previous one on the same job.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -120,6 +120,11 @@ impl MeasureChange {
     }
 }
 
+/// Returns whether two values are the same as they are shown.
+fn are_shown_equal(before: f64, now: f64) -> bool {
+    (SHOWN_STEPS * now).round() == (SHOWN_STEPS * before).round()
+}
+
 /// Compares the latest record with the previous one for the same scenario, level and equated forms; `None` if there is none. A session that was
 /// frozen or rewound is not compared.
 pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
@@ -129,7 +134,7 @@ pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     let mut changes = Vec::new();
     let mut add = |measure: ChangedMeasure, before: Option<f64>, now: Option<f64>, more_is_better: bool| {
         if let (Some(before), Some(now)) = (before, now) {
-            let same = (SHOWN_DECIMAL * now).round() == (SHOWN_DECIMAL * before).round();
+            let same = are_shown_equal(before, now);
             let what = measure.title(&last.scenario, Language::English);
             let better = (!same).then_some((now > before) == more_is_better);
             changes.push(MeasureChange { what, measure, before, now, better, within_error: None });
@@ -190,6 +195,12 @@ mod tests {
             [of(ChangedMeasure::Crashes("bridge")), of(ChangedMeasure::OnPath(task.clone())), of(ChangedMeasure::Speeding(task))];
         assert_eq!(labels.map(|change| change.error_label(Language::English)), ["within error", "beyond error", "error unknown"]);
         assert!(changes.is_labeled());
+    }
+
+    #[test]
+    fn exact_values_that_look_the_same_have_not_changed() {
+        assert!(are_shown_equal(367.16, 367.24) && are_shown_equal(0.0, 0.04));
+        assert!(!are_shown_equal(367.24, 367.26) && !are_shown_equal(0.0, 0.05));
     }
 
     #[test]

@@ -20,10 +20,10 @@ const MIN_PASSED_FRACTION: f64 = 0.4;
 const MIN_OFF_PATH_FRACTION: f64 = 0.1;
 /// Minimum number of defects of a kind for a fraction of them to be meaningful (estimate: one missed defect is chance).
 const MIN_DEFECTS: usize = 2;
-/// Minimum number of pictures near a path for a fraction of them to be meaningful (estimate, as for defects).
+/// Minimum number of pictures near a path for a fraction of them to be meaningful (estimate: a single one is chance).
 const MIN_TASK_PICTURES: usize = 2;
-/// Minimum time near a path for rates, changes and the camera's direction there to be meaningful, s (estimate: in shorter tasks, arriving and
-/// leaving determine them).
+/// Minimum time near a path for rates, changes, the lamp and the camera's direction there to be meaningful, s (estimate: in shorter tasks,
+/// arriving and leaving determine them).
 const MIN_NEAR_S: f64 = 20.0;
 /// Minimum number of pictures for a fraction of them to be meaningful (estimate: of fewer, one is chance).
 const MIN_PICTURES: usize = 4;

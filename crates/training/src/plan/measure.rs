@@ -30,26 +30,25 @@ pub enum TaskMeasure {
     TooFar,
     /// Median distance from the surface below the path's stand-off, m.
     TooClose,
-    /// Change of the distance from the surface: half its range, without the outermost tenths, m; like all rates, changes and the camera's
-    /// direction, only from 20 s near the path.
+    /// Change of the distance from the surface: half its range, without the outermost tenths, m; from 20 s near the path.
     UnevenStandOff,
     /// Median height below the path, m.
     TooLow,
     /// Median height above the path, m.
     TooHigh,
-    /// Change of the height above the path: half its range, without the outermost tenths, m.
+    /// Change of the height above the path: half its range, without the outermost tenths, m; from 20 s near the path.
     UnevenHeight,
     /// Fraction of the time near the path below the minimum clearance.
     LowClearance,
-    /// RMS framing error of the certification profile, degrees.
+    /// RMS framing error of the certification profile, degrees; from 20 s near the path.
     Framing,
-    /// Fraction of the time near the path of a dark task with the lamp off.
+    /// Fraction of the time near the path of a dark task with the lamp off; from 20 s there.
     LampOff,
-    /// Reversals of the forward, right and up sticks per minute near the path.
+    /// Reversals of the forward, right and up sticks per minute near the path; from 20 s there.
     StickReversals,
-    /// Reversals of the yaw stick per minute near the path.
+    /// Reversals of the yaw stick per minute near the path; from 20 s there.
     YawReversals,
-    /// Jumps of the forward, right and up sticks per minute near the path.
+    /// Jumps of the forward, right and up sticks per minute near the path; from 20 s there.
     StickJumps,
     /// Fraction of the pictures near the path of a dark task that were taken with the lamp off, if there are at least two.
     UnlitPictures,
@@ -90,7 +89,7 @@ pub enum SessionMeasure {
     Landing,
     /// Flight time beyond the time for full efficiency, min.
     Overtime,
-    /// Flight time beyond what the job needs, as a fraction of that; not measured in drills and in the lesson.
+    /// Flight time beyond what the job needs, as a fraction of that; a plan evaluates it in jobs only, not in drills and in the lesson.
     Slow,
     /// 1 if the flight did not end with a landing at home.
     NotLanded,

@@ -60,17 +60,17 @@ pub(super) fn limit_words(rule: &PlanRule, language: Language) -> String {
     if rule.measure.unit() == MeasureUnit::Count && rule.limit < 1.0 {
         return text!(language, "plan-limit-none", measure = measure);
     }
+    let shown = |limit: f64| displayed_value(rule.measure, limit, rule.limit, language);
     let limit = match rule.measure.unit() {
         // Counts are whole numbers.
-        MeasureUnit::Count => rule.limit.floor(),
-        MeasureUnit::Fraction
-        | MeasureUnit::Meters
-        | MeasureUnit::Minutes
-        | MeasureUnit::Seconds
-        | MeasureUnit::Degrees
-        | MeasureUnit::PerMinute => rule.limit,
+        MeasureUnit::Count => shown(rule.limit.floor()),
+        MeasureUnit::PerMinute => {
+            text!(language, "plan-limit-per-minute", value = format_with_limit(rule.limit, rule.limit, 0))
+        }
+        MeasureUnit::Fraction | MeasureUnit::Meters | MeasureUnit::Minutes | MeasureUnit::Seconds | MeasureUnit::Degrees => {
+            shown(rule.limit)
+        }
     };
-    let limit = displayed_value(rule.measure, limit, rule.limit, language);
     text!(language, "plan-limit-at-most", measure = measure, limit = limit)
 }
 

@@ -47,7 +47,7 @@ const END_TOLERANCE_M: f64 = 1e-6;
 pub struct TaskTechnique {
     /// Time that counts for this path, s.
     pub near_s: f64,
-    /// Fraction of the path's length that the drone passed within 8 m, 0 to 1.
+    /// Fraction of the path's length that the drone passed within 8 m, 0 to 1; the way to the path and back counts, too.
     pub passed: f64,
     /// Median height above the path, m, positive upward; `None` if the stand-off is vertical or the drone never came near.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -169,10 +169,12 @@ pub(super) fn tasks(source: &RecordSource<'_>, paths: &ReferencePaths, on_path: 
     let frame_s = 1.0 / scenario.scoring.frame_rate_hz;
     let mut samples: Vec<NearSamples> = (0..count).map(|_| NearSamples::default()).collect();
     let mut passed: Vec<FlownPath> = (0..count).map(|task| FlownPath::new(paths.path(task), MAX_OFF_PATH_DISTANCE_M)).collect();
-    for (k, (frame, near)) in frames.iter().zip(near_frames(scenario, frames, paths, on_path)).enumerate() {
+    for (k, near) in nearest_paths(scenario, frames, paths, on_path).into_iter().enumerate() {
         for (task, path) in passed.iter_mut().enumerate() {
             path.add_frame(near.and_then(|near| (near.task == task).then_some(near.point)), paths.frame_duration(k));
         }
+    }
+    for (k, (frame, near)) in frames.iter().zip(near_frames(scenario, frames, paths, on_path)).enumerate() {
         if let Some(near) = near {
             samples[near.task].add(frame, &near, &scenario.tasks, clearance_limit_m(scenario, near.task));
             samples[near.task].add_sticks((k, frame.sticks), frame_s);
@@ -294,19 +296,28 @@ impl NearPath {
 /// Returns the path that each frame counts for; `None` for a missing frame, for one that is elsewhere, and for the way to and from a
 /// path that was flown.
 pub fn near_frames(scenario: &Scenario, frames: &[Frame], paths: &ReferencePaths, on_path: &OnPath) -> Vec<Option<NearPath>> {
+    let mut near = nearest_paths(scenario, frames, paths, on_path);
+    (0..paths.len()).for_each(|task| drop_ways(&mut near, task, on_path));
+    near
+}
+
+/// Returns the nearest path of each frame; `None` for a missing frame and for one that is elsewhere.
+fn nearest_paths(scenario: &Scenario, frames: &[Frame], paths: &ReferencePaths, on_path: &OnPath) -> Vec<Option<NearPath>> {
     let near = |(frame, on): (&Frame, &Option<(usize, usize)>)| {
         if frame.missing { None } else { near_task(paths, &scenario.tasks, frame, on.map(|(task, _)| task)) }
     };
-    let mut near: Vec<Option<NearPath>> = frames.iter().zip(&on_path.task).map(near).collect();
-    for (task, window) in on_path.windows.iter().enumerate() {
-        let is_near = |near: &Option<NearPath>| near.is_some_and(|near| near.task == task);
-        let on = on_path.task.iter().flatten().filter(|(on, _)| *on == task).count();
-        let all = near.iter().filter(|near| is_near(near)).count();
-        let Some(window) = window.filter(|_| on as f64 >= MIN_ON_PATH_FRACTION * all as f64) else { continue };
-        let outside = near.iter_mut().enumerate().filter(|(frame, near)| is_near(near) && !window.contains(*frame));
-        outside.for_each(|(_, near)| *near = None);
-    }
-    near
+    frames.iter().zip(&on_path.task).map(near).collect()
+}
+
+/// Drops the way to and from a path if it was flown.
+fn drop_ways(near: &mut [Option<NearPath>], task: usize, on_path: &OnPath) {
+    let is_near = |near: &Option<NearPath>| near.is_some_and(|near| near.task == task);
+    let all = near.iter().filter(|near| is_near(near)).count();
+    let is_on = |(near, on): &(&Option<NearPath>, &Option<(usize, usize)>)| is_near(near) && on.is_some_and(|(on, _)| on == task);
+    let on = near.iter().zip(&on_path.task).filter(is_on).count();
+    let Some(window) = on_path.windows[task].filter(|_| on as f64 >= MIN_ON_PATH_FRACTION * all as f64) else { return };
+    let outside = near.iter_mut().enumerate().filter(|(frame, near)| is_near(near) && !window.contains(*frame));
+    outside.for_each(|(_, near)| *near = None);
 }
 
 /// Returns the minimum clearance near a task's path, m.
