@@ -26,7 +26,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::endpoint::LinkKind;
 use spandrel_sitl::sim::shared_site::start_places;
-use spandrel_sitl::sim::{Sim, SimConfig};
+use spandrel_sitl::sim::{STEP, Sim, SimConfig};
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -150,7 +150,8 @@ impl Args {
 fn seconds(text: &str) -> Result<SimTime, String> {
     let s: f64 = text.parse().map_err(|_| format!("'{text}' is not a time in seconds"))?;
     if (0.0..=1e6).contains(&s) {
-        Ok(SimTime::from_s(s))
+        // Simulation time advances in steps of 1 ms.
+        Ok(SimTime::from_s((s / STEP.s()).round() * STEP.s()))
     } else {
         Err(format!("'{text}' is out of range (allowed: 0 to 1000000 s)"))
     }

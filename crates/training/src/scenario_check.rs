@@ -197,7 +197,7 @@ fn built_site(scenario: &Scenario, options: &CheckOptions<'_>) -> Option<Site> {
 fn site_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
     let mut problems = clearance_problems(source, scenario, site, options);
     if (options.may_continue)() {
-        problems.extend(drone_problems(source, site));
+        problems.extend(drone_problems(source, site, options));
         problems.extend(place_problems(source, scenario, site));
         problems.extend(placed_defect_problems(source, scenario, site));
     }
@@ -316,10 +316,10 @@ const DRONE_TABLES: [&str; 1] = ["[[drones]]"];
 
 /// Returns the problems of the drones' paths: they must be clear of bridges, ground, water and the landing pad, and of the ways of
 /// traffic and crew.
-fn drone_problems(source: &ScenarioText<'_>, site: &Site) -> Vec<Problem> {
+fn drone_problems(source: &ScenarioText<'_>, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
     let lines = table_line_numbers(source.text, &DRONE_TABLES);
     let tight = |(k, drone): (usize, &SiteDrone)| {
-        let (at_m, distance_m, object) = drone_obstacle(site, drone)?;
+        let (at_m, distance_m, object) = drone_obstacle(site, drone, options)?;
         let ([east, north, up], name) = (at_m.array(), drone.name());
         Some(Problem {
             file: source.file.to_owned(),
@@ -342,12 +342,12 @@ const TRAFFIC_SEARCH_STEP_M: f64 = 0.25;
 const OTHERS: &str = "vehicles or people";
 
 /// Returns a point of a drone's path that is too close to something, the distance in meters, and what it is.
-fn drone_obstacle(site: &Site, drone: &SiteDrone) -> Option<(Vec3<Enu>, f64, String)> {
+fn drone_obstacle(site: &Site, drone: &SiteDrone, options: &CheckOptions<'_>) -> Option<(Vec3<Enu>, f64, String)> {
     let needed_m = needed_clearance_m(drone.vehicle());
     if let Some((at_m, near)) = site.min_path_clearance(drone.path().segments(), needed_m) {
         return Some((at_m, near.distance_m, site.object_name(near.object)));
     }
-    drone.path().sampled(TRAFFIC_SEARCH_STEP_M).find_map(|at_m| {
+    drone.path().sampled(TRAFFIC_SEARCH_STEP_M).take_while(|_| (options.may_continue)()).find_map(|at_m| {
         let pad_m = site.geometry().pad_distance_m(at_m);
         if pad_m < needed_m {
             return Some((at_m, pad_m, site.object_name(PAD)));

@@ -5,12 +5,17 @@ use super::point_cloud::{MAX_POINTS, PointCloud};
 use super::vertex_colors::{Color, of_srgb};
 use las::{PointData, PointDataBuilder, Reader};
 use std::io::Cursor;
+use std::ops::Range;
 use std::panic::catch_unwind;
 
 /// Number of points that are decoded together.
 const CHUNK: u64 = 65_536;
 /// Classes of points that are no part of a bridge (ASPRS LAS 1.4): ground, low noise, water, high noise.
 const OTHER_CLASSES: [u8; 4] = [2, 7, 9, 18];
+/// Offset of the minor version in the header, the first version with extended records, and the bytes of their place and number (LAS 1.4).
+const MINOR_VERSION: usize = 25;
+const EXTENDED_RECORDS_MINOR: u8 = 4;
+const EXTENDED_RECORDS: Range<usize> = 235..247;
 /// Highest value of a color of 8 bits.
 const MAX_8_BIT: u16 = 255;
 
@@ -27,7 +32,7 @@ pub(super) fn read_las(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
 fn decode_las(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
     let problem = |words: &dyn std::fmt::Display| format!("{file}: {words}");
     let invalid = |error: las::Error| problem(&format!("not a LAS or LAZ file: {error}"));
-    let mut reader = Reader::new(Cursor::new(bytes.to_vec())).map_err(invalid)?;
+    let mut reader = Reader::new(Cursor::new(without_extended_records(bytes))).map_err(invalid)?;
     let count = reader.header().number_of_points();
     if count > MAX_POINTS as u64 {
         return Err(problem(&format!("{count} points (allowed: at most {MAX_POINTS}; thin the cloud out)")));
@@ -45,6 +50,17 @@ fn decode_las(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
         add_chunk(&chunk, &mut cloud, &mut colors).map_err(|words| problem(&words))?;
     }
     finished(file, colors.apply(cloud))
+}
+
+/// Returns a copy of a file whose header names no extended records: they hold no points, and a damaged one can claim any size, which the
+/// decoder would allocate.
+fn without_extended_records(bytes: &[u8]) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    let has_records = bytes.get(MINOR_VERSION).is_some_and(|minor| *minor >= EXTENDED_RECORDS_MINOR);
+    if let Some(records) = bytes.get_mut(EXTENDED_RECORDS).filter(|_| has_records) {
+        records.fill(0);
+    }
+    bytes
 }
 
 /// Colors of a file, until it is known whether they have 8 or 16 bits.
@@ -168,6 +184,19 @@ mod tests {
         let far = cloud("432100.125 5812345.625 12.5\n432160.126 5812345.001 12.753\n");
         let [_, (p, _)] = far.points().collect::<Vec<_>>()[..] else { panic!("not two points") };
         assert!(p.iter().zip([432_160.126, 5_812_345.001, 12.753]).all(|(a, b)| (a - b).abs() < 1e-3), "{p:?}");
+    }
+
+    #[test]
+    fn exact_extended_records_are_ignored_from_version_1_4_on() {
+        let header = |minor: u8| {
+            let mut bytes = vec![0xff; 375];
+            bytes[MINOR_VERSION] = minor;
+            without_extended_records(&bytes)
+        };
+        assert!(header(4)[EXTENDED_RECORDS].iter().all(|byte| *byte == 0));
+        assert_eq!(header(4).iter().filter(|byte| **byte == 0xff).count(), 375 - 1 - EXTENDED_RECORDS.len());
+        assert!(header(2)[EXTENDED_RECORDS].iter().all(|byte| *byte == 0xff), "points may be there");
+        assert_eq!(without_extended_records(&[1, 2]), [1, 2]);
     }
 
     #[test]

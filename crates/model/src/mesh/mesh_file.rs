@@ -12,7 +12,7 @@ pub const MAX_TRIANGLES: usize = 5_000_000;
 /// Maximum number of nodes with a mesh.
 pub const MAX_NODES: usize = 50_000;
 /// Maximum length of a part's name, characters.
-const MAX_NAME_CHARS: usize = 100;
+pub const MAX_NAME_CHARS: usize = 100;
 
 /// Function that loads another file by its name in a model.
 pub type BufferLoader<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;

@@ -14,7 +14,7 @@ pub const MAX_DRONES: usize = 8;
 pub const MAX_POINTS: usize = 200;
 /// Minimum distance between two points in succession, m (estimate: a drone does not fly less).
 pub const MIN_SPACING_M: f64 = 0.1;
-/// Maximum speed, m/s. A drone moves less in one step of the physics than half its thinnest part is wide.
+/// Maximum speed, m/s. A drone moves at most half the width of its thinnest part in one step of the physics.
 pub const MAX_SPEED_M_S: f64 = 15.0;
 /// Key with the path.
 pub const POINTS_KEY: &str = "points_m";

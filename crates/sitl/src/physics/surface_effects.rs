@@ -4,8 +4,9 @@ use super::airframe::AirframeModel;
 use super::multirotor_surfaces;
 use super::obstacles::Obstacles;
 use super::state::{MAX_ROTORS, RigidState};
-use spandrel_model::frames::{Frd, Vec3};
+use spandrel_model::frames::{Enu, Frd, Vec3};
 use spandrel_model::math;
+use spandrel_model::site::drones::FIRST_DRONE_OBJECT;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::SurfaceEffects;
 
@@ -66,10 +67,16 @@ pub fn distances(model: &AirframeModel, rigid: &RigidState, obstacles: &impl Obs
     let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();
     for (i, rotor) in model.rotors.iter().enumerate() {
         let hub = (rigid.position_m + rigid.attitude * rotor.position_m).enu();
-        out.below_m[i] = obstacles.ray(hub, down, reach_m(model), at).map(|hit| hit.distance_m);
-        out.above_m[i] = obstacles.ray(hub, -down, reach_m(model), at).map(|hit| hit.distance_m);
+        out.below_m[i] = surface_m(obstacles, hub, down, model, at);
+        out.above_m[i] = surface_m(obstacles, hub, -down, model, at);
     }
     out
+}
+
+/// Returns the distance of the surface that a ray meets. Thin parts of another drone are no surface for a rotor's air.
+fn surface_m(obstacles: &impl Obstacles, hub: Vec3<Enu>, along: Vec3<Enu>, model: &AirframeModel, at: SimTime) -> Option<f64> {
+    let hit = obstacles.ray(hub, along, reach_m(model), at)?;
+    (hit.object.0 < FIRST_DRONE_OBJECT).then_some(hit.distance_m)
 }
 
 /// Returns each rotor's thrust factor, based on the surfaces below and above its hub along the rotor axis.

@@ -5,6 +5,7 @@ use crate::physics::pair_contact::{PairMember, may_touch, resolve_pair};
 use crate::physics::{ContactReport, more_severe_surface};
 use crate::sensors::{SensorSite, Sensors};
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::aircraft_hull::{hull_radius_m, probes};
 use spandrel_model::site::drones::{LiveDrone, live_drone_number, live_drone_object};
@@ -21,13 +22,16 @@ const MAX_START_STEP_M: f64 = 0.3;
 const MAX_START_ROWS: i32 = 4;
 
 /// Returns the places on the ground where aircraft of one type start, m: the first one in the middle of the landing pad, the others
-/// on level ground around it. Neighbors' hulls are [`START_GAP_M`] apart. `None` if there is not enough room.
+/// on level ground around it, within the home radius. Neighbors' hulls are [`START_GAP_M`] apart. `None` if there is not enough room.
 #[must_use]
 pub fn start_places(scenario: &Scenario, site: &Site, vehicle: &Vehicle, count: usize) -> Option<Vec<Vec3<Enu>>> {
     let radius_m = hull_radius_m(&probes(vehicle));
     let (pad_m, spacing_m) = (scenario.ground_team.pad_m, 2.0 * radius_m + START_GAP_M);
     let rows = -MAX_START_ROWS..=MAX_START_ROWS;
     let mut cells: Vec<(i32, i32)> = rows.clone().flat_map(|i| rows.clone().map(move |j| (i, j))).collect();
+    let is_home =
+        |(i, j): &(i32, i32)| spacing_m * math::hypot(f64::from(*i), f64::from(*j)) <= scenario.ground_team.home_radius_m;
+    cells.retain(is_home);
     cells.sort_by_key(|(i, j)| (i * i + j * j, *j, *i));
     let place = |(i, j): (i32, i32)| {
         let (east, north) = (pad_m.east() + spacing_m * f64::from(i), pad_m.north() + spacing_m * f64::from(j));

@@ -151,13 +151,15 @@ fn exact_aircraft_start_a_gap_apart_on_level_ground() {
         let site = Site::without_defects(&job);
         for aircraft in [PHANTOM2, M30, ELIOS3] {
             let aircraft = vehicle::read("shipped.toml", aircraft).unwrap();
-            let Some(places) = start_places(&job, &site, &aircraft, 4) else {
-                panic!("{name}: no room for four {}", aircraft.id)
+            let Some(places) = start_places(&job, &site, &aircraft, 8) else {
+                panic!("{name}: no room for eight {}", aircraft.id)
             };
             assert_eq!(places[0], job.ground_team.pad_m);
             let width_m = 2.0 * hull_radius_m(&probes(&aircraft));
             for (k, place) in places.iter().enumerate() {
                 assert!((place.up() - job.ground_team.pad_m.up()).abs() <= 0.3, "{name}: {place:?}");
+                let away_m = (*place - job.ground_team.pad_m).horizontal_norm();
+                assert!(away_m <= job.ground_team.home_radius_m, "{name}: {away_m} m from the pad");
                 for other in &places[..k] {
                     assert!((*place - *other).horizontal_norm() >= width_m + START_GAP_M - 1e-9, "{name}: {place:?} {other:?}");
                 }

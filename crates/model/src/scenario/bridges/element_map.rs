@@ -4,6 +4,7 @@
 use super::paint_box::PaintBox;
 use super::quantity::ElementQuantity;
 use crate::elements::{Element, ElementUnit};
+use crate::mesh::mesh_file::MAX_NAME_CHARS;
 use crate::toml::{Problems, Reader, Section};
 
 /// Latest supported format version.
@@ -156,6 +157,12 @@ fn read_row(r: &mut Reader, s: &mut Section, purpose: Use) -> ElementRow {
     if !is_boxed && !name.is_empty() {
         r.add_problem(s, "name", &name, "only with box_m", "no box");
     }
+    if name != name.trim()
+        || name.chars().count() > MAX_NAME_CHARS
+        || name.contains(|c: char| c.is_control() || matches!(c, '*' | '?'))
+    {
+        r.add_problem(s, "name", &name, &format!("at most {MAX_NAME_CHARS} characters, without * and ?"), "not a name of a part");
+    }
     let element = Element::from_number(r.integer(s, "element", (1, 999), None) as u16);
     let own = total_key(element);
     let mut amount = 0.0;
@@ -259,6 +266,9 @@ mod tests {
             format!("e.toml:4: elements[].box_m = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]]: not a box {corners}")
         );
         assert!(problem("box_m = [[0, 0, 0]]").ends_with(corners));
+        assert!(problem("box_m = []").ends_with(corners), "no box is not a row for all parts");
+        let name = problem("box_m = [[0, 0, 0], [1, 1, 1]]\nname = \"pier*\"");
+        assert!(name.contains("elements[].name = pier*: not a name of a part"), "{name}");
         assert!(problem("box_m = [[0, 0, 0], [1, 1, 6000]]").contains("each -5000 to 5000"));
         assert!(
             problem("parts = \"*\"\nbox_turn_deg = 3").contains("elements[].box_turn_deg = 3: no box (allowed: only with box_m)")

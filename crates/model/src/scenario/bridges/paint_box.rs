@@ -27,12 +27,13 @@ impl PaintBox {
 
     /// Reads `box_m` and `box_turn_deg`; `None` if the table has no box, or an invalid one.
     pub(super) fn read(r: &mut Reader, s: &mut Section) -> Option<Self> {
+        let before = r.problems.len();
         let corners = r.points(s, "box_m", (-MAX_CORNER_M, MAX_CORNER_M));
         let turn_deg = r.number(s, "box_turn_deg", (-360.0, 360.0), Some(0.0));
-        if corners.is_empty() {
-            if s.has("box_turn_deg") && !s.has("box_m") {
-                r.add_problem(s, "box_turn_deg", &turn_deg.to_string(), "only with box_m", "no box");
-            }
+        if !s.has("box_m") && s.has("box_turn_deg") {
+            r.add_problem(s, "box_turn_deg", &turn_deg.to_string(), "only with box_m", "no box");
+        }
+        if !s.has("box_m") || r.problems.len() > before {
             return None;
         }
         let allowed = format!("two opposite corners [x, y, z], at least {MIN_SIDE_M} m apart along each axis");
