@@ -30,7 +30,7 @@ impl Default for CloudLimits {
     }
 }
 
-/// What became of a cloud.
+/// Counts of the points and cells of a converted cloud.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct CloudReport {
     /// Number of points that the file marks as no part of a bridge.

@@ -1,5 +1,6 @@
 //! Parts of an aircraft's hull as obstacles for another aircraft: exact distances, rays and contacts of balls and capsules.
 
+use super::nearest_points::closest_fractions_of_segments;
 use super::query_types::HullProbe;
 use crate::frames::{Enu, Vec3};
 
@@ -44,6 +45,14 @@ impl HullShape {
         let axis = self.b_m - self.a_m;
         let length2 = axis.norm_squared();
         if length2 < MIN_AXIS_LENGTH2_M2 { 0.0 } else { ((point_m - self.a_m).dot(axis) / length2).clamp(0.0, 1.0) }
+    }
+
+    /// Returns the positions where this axis and another one are closest, as fractions of each.
+    fn closest_fractions(&self, other: &Self) -> (f64, f64) {
+        if (other.b_m - other.a_m).norm_squared() < MIN_AXIS_LENGTH2_M2 {
+            return (self.nearest_fraction(other.a_m), 0.0);
+        }
+        closest_fractions_of_segments((self.a_m, self.b_m), (other.a_m, other.b_m))
     }
 
     /// Returns the signed distance (m, negative inside) from a point to the nearest surface point, that surface point, and its outward
@@ -106,7 +115,7 @@ impl HullShape {
                 found(gap_m, center + normal * self.radius_m, normal);
             }
         };
-        let (mine, theirs) = closest_fractions((self.a_m, axis), (other.a_m, other_axis));
+        let (mine, theirs) = self.closest_fractions(&other);
         test(mine, theirs);
         let (length2, other_length2) = (axis.norm_squared(), other_axis.norm_squared());
         let sine2 = axis.cross(other_axis).norm_squared() / (length2 * other_length2);
@@ -131,27 +140,6 @@ fn entry(from: Vec3<Enu>, along: Vec3<Enu>, radius_m: f64) -> Option<f64> {
     let (a, b, c) = (along.norm_squared(), from.dot(along), from.norm_squared() - radius_m * radius_m);
     let root2 = b * b - a * c;
     (a > 0.0 && root2 >= 0.0).then(|| (-b - root2.sqrt()) / a)
-}
-
-/// Returns the positions where two axes are closest, as fractions of each. An axis is its start and the vector to its end.
-fn closest_fractions((a, u): (Vec3<Enu>, Vec3<Enu>), (c, v): (Vec3<Enu>, Vec3<Enu>)) -> (f64, f64) {
-    let w = a - c;
-    let (uu, uv, vv) = (u.norm_squared(), u.dot(v), v.norm_squared());
-    let (uw, vw) = (u.dot(w), v.dot(w));
-    if uu < MIN_AXIS_LENGTH2_M2 && vv < MIN_AXIS_LENGTH2_M2 {
-        return (0.0, 0.0);
-    }
-    if uu < MIN_AXIS_LENGTH2_M2 {
-        return (0.0, (vw / vv).clamp(0.0, 1.0));
-    }
-    if vv < MIN_AXIS_LENGTH2_M2 {
-        return ((-uw / uu).clamp(0.0, 1.0), 0.0);
-    }
-    let square = uu * vv - uv * uv;
-    // Parallel axes have the same distance everywhere, so any starting point works.
-    let s = if square > 0.0 { ((uv * vw - vv * uw) / square).clamp(0.0, 1.0) } else { 0.0 };
-    let t = ((uv * s + vw) / vv).clamp(0.0, 1.0);
-    (((uv * t - uw) / uu).clamp(0.0, 1.0), t)
 }
 
 #[cfg(test)]
@@ -216,7 +204,7 @@ mod tests {
                 HullShape { a_m, b_m, radius_m }
             };
             let (mine, theirs) = (part(k % 5 == 0), part(k % 7 == 0));
-            let (s, t) = closest_fractions((mine.a_m, mine.b_m - mine.a_m), (theirs.a_m, theirs.b_m - theirs.a_m));
+            let (s, t) = mine.closest_fractions(&theirs);
             let distance_m = (mine.axis_point(s) - theirs.axis_point(t)).norm();
             for (i, j) in (0..=20).flat_map(|i| (0..=20).map(move |j| (f64::from(i) / 20.0, f64::from(j) / 20.0))) {
                 assert!(distance_m <= (mine.axis_point(i) - theirs.axis_point(j)).norm() + TOLERANCE_M, "{mine:?} {theirs:?}");

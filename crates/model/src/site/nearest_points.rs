@@ -29,6 +29,12 @@ pub(super) fn closest_points_of_segments(
     (a, b): (Vec3<Enu>, Vec3<Enu>),
     (c, d): (Vec3<Enu>, Vec3<Enu>),
 ) -> (Vec3<Enu>, Vec3<Enu>) {
+    let (s, t) = closest_fractions_of_segments((a, b), (c, d));
+    (a + (b - a) * s, c + (d - c) * t)
+}
+
+/// Returns where segments a-b and c-d are closest, as fractions of each. Segment c-d must have a length.
+pub(super) fn closest_fractions_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (f64, f64) {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, uv, vv) = (u.norm_squared(), u.dot(v), v.norm_squared());
     let square = uu * vv - uv * uv;
@@ -37,7 +43,7 @@ pub(super) fn closest_points_of_segments(
     let t = (v.dot(a + u * s - c) / vv).clamp(0.0, 1.0);
     let e = c + v * t;
     let s = if uu > 0.0 { (u.dot(e - a) / uu).clamp(0.0, 1.0) } else { 0.0 };
-    (a + u * s, e)
+    (s, t)
 }
 
 /// Returns the point of segment a-b that is nearest to `p`.

@@ -1,6 +1,6 @@
-//! Cars, trucks and pedestrians on the decks, the ground crew, and drones that fly along paths. The plan is generated from the seed; positions are a
-//! pure function of simulation time. All objects in a lane have the same speed, which prevents overtaking. They move on
-//! a loop longer than the lane, so that they appear and disappear beyond the ends of the bridge.
+//! Cars, trucks and pedestrians on the decks, the ground crew, and drones that fly along paths. The plan is generated from the seed;
+//! positions are a pure function of simulation time. All objects in a lane have the same speed, which prevents overtaking. They move
+//! on a loop longer than the lane, so that they appear and disappear beyond the ends of the bridge.
 
 use super::boxes::{OrientedBox, bounding_sphere};
 use super::bridge_closures::BridgeClosures;

@@ -92,12 +92,13 @@ pub fn resolve_pair(a: &mut PairMember, b: &mut PairMember, dt_s: f64) -> [Conta
         c.active = c.impulse.dot(&c.normal) > 0.0;
     }
     if constraints.iter().any(|c| c.active) {
-        push(a, &constraints, (v, w), 1.0, bodies[0].inverse_mass / (bodies[0].inverse_mass + bodies[1].inverse_mass));
-        let share = bodies[1].inverse_mass / (bodies[0].inverse_mass + bodies[1].inverse_mass);
-        push(b, &constraints, (motion.linear, motion.angular), -1.0, share);
-        let struck = |k: usize| constraints[k].active;
-        slow_rotors(constraints.iter().filter(|c| c.active).filter_map(|c| c.rotor), &mut a.state.rigid, dt_s);
-        slow_rotors((0..far.len()).filter(|k| struck(*k)).filter_map(|k| far[k].rotor), &mut b.state.rigid, dt_s);
+        let inverse_masses = bodies.each_ref().map(|body| body.inverse_mass);
+        let share = |side: usize| inverse_masses[side] / (inverse_masses[0] + inverse_masses[1]);
+        push(a, &constraints, (v, w), 1.0, share(0));
+        push(b, &constraints, (motion.linear, motion.angular), -1.0, share(1));
+        let struck = || constraints.iter().zip(&far).filter(|(c, _)| c.active);
+        slow_rotors(struck().filter_map(|(c, _)| c.rotor), &mut a.state.rigid, dt_s);
+        slow_rotors(struck().filter_map(|(_, far)| far.rotor), &mut b.state.rigid, dt_s);
     }
     let of_a = report(&constraints, dt_s);
     let of_b = ContactReport { surface: of_a.surface.map(|(surface, _)| (surface, a.object)), ..of_a };

@@ -169,14 +169,16 @@ pub(super) fn tasks(source: &RecordSource<'_>, paths: &ReferencePaths, on_path: 
     let frame_s = 1.0 / scenario.scoring.frame_rate_hz;
     let mut samples: Vec<NearSamples> = (0..count).map(|_| NearSamples::default()).collect();
     let mut passed: Vec<FlownPath> = (0..count).map(|task| FlownPath::new(paths.path(task), MAX_OFF_PATH_DISTANCE_M)).collect();
-    for (k, near) in nearest_paths(scenario, frames, paths, on_path).into_iter().enumerate() {
+    let mut near = nearest_paths(scenario, frames, paths, on_path);
+    for (k, near) in near.iter().enumerate() {
         for (task, path) in passed.iter_mut().enumerate() {
             path.add_frame(near.and_then(|near| (near.task == task).then_some(near.point)), paths.frame_duration(k));
         }
     }
-    for (k, (frame, near)) in frames.iter().zip(near_frames(scenario, frames, paths, on_path)).enumerate() {
+    drop_ways(&mut near, on_path);
+    for (k, (frame, near)) in frames.iter().zip(&near).enumerate() {
         if let Some(near) = near {
-            samples[near.task].add(frame, &near, &scenario.tasks, clearance_limit_m(scenario, near.task));
+            samples[near.task].add(frame, near, &scenario.tasks, clearance_limit_m(scenario, near.task));
             samples[near.task].add_sticks((k, frame.sticks), frame_s);
         }
     }
@@ -297,7 +299,7 @@ impl NearPath {
 /// path that was flown.
 pub fn near_frames(scenario: &Scenario, frames: &[Frame], paths: &ReferencePaths, on_path: &OnPath) -> Vec<Option<NearPath>> {
     let mut near = nearest_paths(scenario, frames, paths, on_path);
-    (0..paths.len()).for_each(|task| drop_ways(&mut near, task, on_path));
+    drop_ways(&mut near, on_path);
     near
 }
 
@@ -309,8 +311,12 @@ fn nearest_paths(scenario: &Scenario, frames: &[Frame], paths: &ReferencePaths, 
     frames.iter().zip(&on_path.task).map(near).collect()
 }
 
-/// Drops the way to and from a path if it was flown.
-fn drop_ways(near: &mut [Option<NearPath>], task: usize, on_path: &OnPath) {
+/// Drops the ways to and from the paths that were flown.
+fn drop_ways(near: &mut [Option<NearPath>], on_path: &OnPath) {
+    (0..on_path.windows.len()).for_each(|task| drop_ways_of(task, near, on_path));
+}
+
+fn drop_ways_of(task: usize, near: &mut [Option<NearPath>], on_path: &OnPath) {
     let is_near = |near: &Option<NearPath>| near.is_some_and(|near| near.task == task);
     let all = near.iter().filter(|near| is_near(near)).count();
     let is_on = |(near, on): &(&Option<NearPath>, &Option<(usize, usize)>)| is_near(near) && on.is_some_and(|(on, _)| on == task);

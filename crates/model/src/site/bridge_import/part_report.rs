@@ -55,7 +55,7 @@ pub struct ImportReport {
     pub lost_parts: usize,
     /// Names of nodes that are no part of a bridge.
     pub skipped: Vec<String>,
-    /// What became of a point cloud; `None` for meshes.
+    /// Counts of a converted point cloud; `None` for meshes.
     pub cloud: Option<CloudReport>,
     /// Boxes of the elements file without a triangle: number of the row, and the box.
     pub empty_boxes: Vec<(usize, String)>,
