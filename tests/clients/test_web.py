@@ -585,6 +585,39 @@ def test_local_server_requires_login_only_after_a_password_is_set(browser, tmp_p
     server.close()
 
 
+def freeze_rewind_and_move(page, events):
+    """Freezes a practice flight on the live page, continues it, rewinds it and moves it to a task."""
+    said = page.locator("[data-said]")
+    drone = page.locator(".drone").first
+    place = lambda: drone.get_attribute("transform")
+    moves = lambda before: page.wait_for_function(
+        "before => document.querySelector('.drone').getAttribute('transform') !== before", arg=before, timeout=PATIENCE_MS)
+
+    def counted(event):
+        return sum(json.loads(line)["event"] == event for line in events.read_text(encoding="utf-8").splitlines())
+
+    def press(button, report):
+        page.get_by_role("button", name=button, exact=True).click()
+        expect(said).to_contain_text(report, timeout=PATIENCE_MS)
+
+    press("Freeze", "instructor: freeze")
+    spandrel.wait_for("the freeze in the session", lambda: counted("freeze") == 1)
+    frozen = place()
+    # The note makes a round trip through server and session while the drone does not move.
+    page.fill("[name=text]", "frozen")
+    press("Add note", "note: frozen")
+    assert place() == frozen
+    press("Continue", "instructor: continue")
+    moves(frozen)
+    press("Rewind 10 s", "instructor: rewind 10 s")
+    spandrel.wait_for("the rewind in the session", lambda: counted("rewind") == 1)
+    press("Continue", "instructor: continue")
+    before = place()
+    press("Move to the start of this task", "instructor: move to task 1")
+    spandrel.wait_for("the move in the session", lambda: counted("rewind") == 2)
+    moves(before)
+
+
 def test_instructor_can_watch_and_intervene(browser, tmp_path):
     """A complete flight of the synthetic trainee, observed on the server's page: the drone moves, cues arrive, and
     wind, a failure and a note are sent."""
@@ -621,6 +654,8 @@ def test_instructor_can_watch_and_intervene(browser, tmp_path):
         expect(said).to_contain_text("instructor: compass fails", timeout=PATIENCE_MS)
         page.click("text=Clear failure")
         expect(said).to_contain_text("instructor: compass restored", timeout=PATIENCE_MS)
+        events = next(path for path in flight.sessions.iterdir() if path.is_dir()) / "events.jsonl"
+        freeze_rewind_and_move(page, events)
         for size, scheme, locale in LIVE_LOOKS:
             person.show_in(size, scheme, locale)
             page.reload()
@@ -628,9 +663,8 @@ def test_instructor_can_watch_and_intervene(browser, tmp_path):
             assert page.get_attribute("html", "lang") == locale[:2]
             person.save_screenshot(f"live-flight-{size}-{scheme}-{locale[:2]}")
             person.check()
-        events = next(path for path in flight.sessions.iterdir() if path.is_dir()) / "events.jsonl"
         noted = lambda: [e["text"] for e in map(json.loads, events.read_text(encoding="utf-8").splitlines()) if e["event"] == "note"]
-        spandrel.wait_for("the note in the session", lambda: noted() == ["watch the pier <b>"])
+        spandrel.wait_for("the notes in the session", lambda: noted() == ["watch the pier <b>", "frozen"])
         gates = lambda: [e["open"] for e in map(json.loads, events.read_text(encoding="utf-8").splitlines()) if e["event"] == "traffic"]
         spandrel.wait_for("the bridges closed and opened in the session", lambda: gates() == [False, True])
         assert person.wrong == []
