@@ -32,7 +32,8 @@ impl Sentence {
     }
 
     /// Creates a sentence that does not have every value. `compose` returns `None` for other values.
-    pub(crate) const fn checked(value_count: usize, compose: Check) -> Self {
+    #[must_use]
+    pub const fn checked(value_count: usize, compose: Check) -> Self {
         Self { value_count, compose: Composition::Checked(compose) }
     }
 

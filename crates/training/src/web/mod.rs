@@ -9,6 +9,7 @@ pub mod back_links;
 pub mod browser_sessions;
 pub mod classes;
 pub mod cohort_page;
+mod dimension_words;
 mod key_texts;
 pub mod known_browsers;
 pub mod layout;

@@ -1,6 +1,7 @@
 //! Problems of scenario files in the language of a page. The readers of the model state them in English, in fixed sentences with
 //! values; keys and values stay as they are in the file.
 
+use super::dimension_words::allowed_dimension;
 use super::key_texts::translated_allowed;
 use spandrel_model::toml::{Problem, SYNTAX};
 use spandrel_text::{Language, Sentence, SentenceTable, text};
@@ -239,8 +240,8 @@ fn translated(table: &SentenceTable, language: Language, english: &str) -> Optio
 /// Returns the allowed values in a language. Keywords and keys stay; `None` for other words that the catalog does not have.
 fn allowed_in(language: Language, english: &str) -> Option<String> {
     let is_list_of_words = || english.split(", ").all(|word| !word.contains(' '));
-    let known = translated(&ALLOWED, language, english).or_else(|| translated_allowed(language, english));
-    known.or_else(|| is_list_of_words().then(|| english.to_owned()))
+    let known = translated(&ALLOWED, language, english).or_else(|| allowed_dimension(language, english));
+    known.or_else(|| translated_allowed(language, english)).or_else(|| is_list_of_words().then(|| english.to_owned()))
 }
 
 /// Returns the message in a message.
@@ -287,11 +288,6 @@ mod tests {
         assert!(english == own || english == problem.message || problem.key == SYNTAX, "{english}");
         for language in [Language::German, Language::Spanish] {
             let words = ProblemWords::new(language, problem);
-            if words.language == Language::English {
-                // Only the reasons for dimensions that do not fit together are in English.
-                assert_eq!((problem.message.as_str(), words.text), ("inconsistent with other values", english.clone()));
-                continue;
-            }
             assert_eq!(words.language, language, "{problem:?}");
             assert_ne!(words.text, english);
             let untranslated = |mark: &str| words.text.contains(mark);
