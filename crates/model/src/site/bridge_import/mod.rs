@@ -133,7 +133,7 @@ impl std::error::Error for ImportError {}
 /// See [`ImportError`].
 pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<ImportedBridge, ImportError> {
     let content = reader::read(source.format, source.file, source.bytes, source.load).map_err(ImportError::Invalid)?;
-    let skipped = content.skipped.clone();
+    let (skipped, notes) = (content.skipped.clone(), content.notes.clone());
     let (mut nodes, cloud) = nodes_in_bridge_axes(source.file, content, options)?;
     unique_names(nodes.iter_mut().map(|node| &mut node.name));
     let known = elements(&nodes, source, options);
@@ -173,6 +173,7 @@ pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<Imported
         parts: rows,
         lost_parts: made - parts.len(),
         skipped,
+        notes,
         cloud,
         empty_boxes: painted.empty_boxes,
         origin_m: turn(-options.turn_deg)(origin),
