@@ -50,7 +50,7 @@ pub struct Args {
     /// Name of the bridge and the job, of a-z, 0-9 and hyphens [default: from the file's name]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Factor from the model's units to meters
+    /// Factor from the model's units to meters (IFC files state their own unit)
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
     scale: f64,
     /// Axis of the model that points up: y (as glTF requires) or z [default: z for .ifc, .las, .laz, .xyz and .pts, y for other files]

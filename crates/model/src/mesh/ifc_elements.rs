@@ -70,8 +70,7 @@ enum Choice {
 use Choice::{ByMaterial, Fixed};
 use Material::{Concrete, Masonry, Prestressed, Reinforced, Steel, Timber};
 
-const DECKS: Choice =
-    ByMaterial(&[(Concrete, Element::RcDeck), (Prestressed, Element::PscDeck), (Timber, Element::TimberDeck)]);
+const DECKS: Choice = ByMaterial(&[(Concrete, Element::RcDeck), (Prestressed, Element::PscDeck), (Timber, Element::TimberDeck)]);
 const APPROACH_SLABS: Choice = ByMaterial(&[(Concrete, Element::RcApproachSlab), (Prestressed, Element::PscApproachSlab)]);
 const RAILINGS: Choice = ByMaterial(&[
     (Steel, Element::MetalRailing),

@@ -102,7 +102,7 @@ fn decode(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
         let cut = openings.get(&place.id).map_or(0, Vec::len);
         let (mesh, notes) = reader.mesh(&entity, &openings, cut);
         content.notes.extend(notes.into_iter().map(|note| format!("{label}: {note}")));
-        let mesh = mesh.map_err(|words| format!("{}: {label}: {words}", reader.at(*place)))?;
+        let mesh = mesh.map_err(|words| format!("{file}:{}: {label}: {words}", line(bytes, place.start)))?;
         if mesh.triangles.is_empty() {
             continue;
         }
@@ -271,7 +271,7 @@ mod tests {
     use super::*;
     use crate::random::RandomStream;
 
-    const MUTANTS: usize = 600;
+    const MUTANTS: usize = 300;
     const METERS: &str = "$";
     const MILLIMETERS: &str = ".MILLI.";
 

@@ -106,7 +106,12 @@ impl Relations {
     pub(super) fn traits(&self, entity: &DecodedEntity, decoder: &mut EntityDecoder) -> Traits {
         let chain = self.ancestors(entity.id);
         let around = chain.iter().skip(1).find_map(|id| self.location(*id, decoder));
-        Traits { class: entity.ifc_type.clone(), kind: self.kind(entity, decoder), location: around, material: self.material(entity.id, decoder) }
+        Traits {
+            class: entity.ifc_type.clone(),
+            kind: self.kind(entity, decoder),
+            location: around,
+            material: self.material(entity.id, decoder),
+        }
     }
 
     /// Returns the predefined type of a product or, without one, of its type.
@@ -135,7 +140,10 @@ impl Relations {
                 continue;
             }
             if entity.ifc_type == IfcType::IfcMaterial {
-                found.insert(material(entity.get_string(NAME).unwrap_or_default(), entity.get_string(CATEGORY).unwrap_or_default()));
+                found.insert(material(
+                    entity.get_string(NAME).unwrap_or_default(),
+                    entity.get_string(CATEGORY).unwrap_or_default(),
+                ));
             } else {
                 entity.attributes.iter().for_each(|attribute| push_refs(attribute, &mut open));
             }
