@@ -68,7 +68,7 @@ pub struct Args {
     /// Element number of all parts that have no other
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999))]
     element: Option<u16>,
-    /// Maximum deviation at which the convex hull replaces a piece, m
+    /// Maximum deviation at which convex solids replace a piece, m
     #[arg(long, value_name = "M", default_value_t = 0.01, value_parser = parse_tolerance)]
     tolerance: f64,
     /// Replace pieces that cannot be cut exactly by hulls of groups of voxels instead of their own triangles; N is the number of voxels
