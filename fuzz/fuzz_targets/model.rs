@@ -8,7 +8,7 @@ use spandrel_model::scenario::bridges::model::Model;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let none = |_: &str| Err("no file".to_owned());
-    for format in [ModelFormat::Gltf, ModelFormat::Obj, ModelFormat::Ply] {
+    for format in [ModelFormat::Gltf, ModelFormat::Ifc, ModelFormat::Obj, ModelFormat::Ply] {
         let Ok(content) = read(format, "fuzz", bytes, &none) else { continue };
         for node in content.nodes {
             assert!(node.mesh.vertices_m.iter().flatten().all(|value| value.is_finite()));

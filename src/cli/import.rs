@@ -21,10 +21,10 @@ const MAX_LISTED: usize = 20;
 
 /// Import a bridge from a 3D model
 ///
-/// Reads a glTF 2.0 file (.glb, or .gltf with its buffers), a Wavefront OBJ file, a PLY file or a point cloud (.las, .laz, .xyz, .pts, or
+/// Reads a glTF 2.0 file (.glb, or .gltf with its buffers), an IFC file (.ifc, IFC2X3 to IFC4X3), a Wavefront OBJ file, a PLY file or a point cloud (.las, .laz, .xyz, .pts, or
 /// .ply without faces), cleans its meshes, converts them to parts that collide (convex solids where they fit, their own triangles elsewhere) and writes a folder with the parts
 /// (bridge.glb), their elements (elements.toml) and a job (scenario.toml) that you can check, fly and edit. A part's element comes
-/// from the elements file, or from `element` in the extras of its node. If parts have no element, it prints an elements file to
+/// from the elements file, from `element` in the extras of its node or in the properties of its product, or from its IFC class. If parts have no element, it prints an elements file to
 /// start from. It prints a table of the parts: triangles (and those removed as degenerate or repeated), connected pieces, open
 /// edges and holes, parts that collide, how they were made, the largest deviation of their surfaces from the model, and the size.
 #[derive(Debug, clap::Args)]
@@ -34,13 +34,14 @@ Examples:
   spandrel import bridge.glb --out my-bridge/ > elements.toml          an elements file to edit, if parts have no element
   spandrel import bridge.glb --out my-bridge/ --elements elements.toml
   spandrel import bridge.gltf --out my-bridge/ --scale 0.001 --up z    a model in millimeters with z up
+  spandrel import bridge.ifc --out my-bridge/                          a building information model
   spandrel import scan.ply --out my-bridge/ --up z --element 144       a mesh from photogrammetry
   spandrel import scan.laz --out my-bridge/ --element 107 --voxel-size 0.2
   spandrel check my-bridge/scenario.toml
 
 {EXIT_CODES}"))]
 pub struct Args {
-    /// Model (.glb, .gltf, .obj, .ply, .las, .laz, .xyz or .pts)
+    /// Model (.glb, .gltf, .ifc, .obj, .ply, .las, .laz, .xyz or .pts)
     #[arg(value_name = "FILE")]
     file: String,
     /// Folder for the bridge; created if it does not exist
@@ -49,10 +50,10 @@ pub struct Args {
     /// Name of the bridge and the job, of a-z, 0-9 and hyphens [default: from the file's name]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Factor from the model's units to meters
+    /// Factor from the model's units to meters (IFC files state their own unit)
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = parse_scale)]
     scale: f64,
-    /// Axis of the model that points up: y (as glTF requires) or z [default: z for .las, .laz, .xyz and .pts, y for other files]
+    /// Axis of the model that points up: y (as glTF requires) or z [default: z for .ifc, .las, .laz, .xyz and .pts, y for other files]
     #[arg(long, value_name = "AXIS", value_parser = parse_up)]
     up: Option<UpAxis>,
     /// Origin of the bridge axes: center (the middle of the deck's upper surface), or a point X,Y,Z in the model, in m with z up
@@ -67,7 +68,7 @@ pub struct Args {
     /// Element number of all parts that have no other
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999))]
     element: Option<u16>,
-    /// Maximum deviation at which the convex hull replaces a piece, m
+    /// Maximum deviation at which convex solids replace a piece, m
     #[arg(long, value_name = "M", default_value_t = 0.01, value_parser = parse_tolerance)]
     tolerance: f64,
     /// Replace pieces that cannot be cut exactly by hulls of groups of voxels instead of their own triangles; N is the number of voxels
@@ -247,6 +248,10 @@ fn summary(report: &ImportReport) -> String {
     }
     if !report.skipped.is_empty() {
         note(format!("no part of a bridge: {}", report.skipped.join(", ")));
+    }
+    report.notes.iter().take(MAX_LISTED).for_each(|words| note(words.clone()));
+    if report.notes.len() > MAX_LISTED {
+        note(format!("{} more notes on parts", report.notes.len() - MAX_LISTED));
     }
     let lines = sum(|part| part.ignored_primitives);
     if lines > 0 {

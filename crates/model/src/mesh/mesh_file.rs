@@ -41,6 +41,8 @@ pub struct MeshFile {
     pub nodes: Vec<MeshNode>,
     /// Names of nodes that are no part of a bridge: ground, water and landing pad of an exported site.
     pub skipped: Vec<String>,
+    /// What could not be read, one line each with the part.
+    pub notes: Vec<String>,
     /// Points without triangles; a file with them has no nodes.
     pub cloud: Option<PointCloud>,
 }

@@ -1,4 +1,4 @@
-//! Triangle meshes of bridge models: reads them from glTF, OBJ and PLY files, makes them of point clouds, welds and splits them into connected parts, and turns the parts into
+//! Triangle meshes of bridge models: reads them from glTF, IFC, OBJ and PLY files, makes them of point clouds, welds and splits them into connected parts, and turns the parts into
 //! shapes for collisions. All lengths are in meters.
 
 mod bsp;
@@ -6,6 +6,9 @@ mod cloud_reader;
 pub mod faces;
 pub mod gltf_reader;
 pub mod hull;
+mod ifc_elements;
+mod ifc_reader;
+mod ifc_relations;
 pub mod mesh_file;
 mod obj_reader;
 pub mod part_shapes;

@@ -142,7 +142,7 @@ pub enum ConcaveShape {
 /// Limits of the conversion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShapeLimits {
-    /// Maximum deviation at which the hull replaces a part, m.
+    /// Maximum deviation at which convex solids replace a part, m.
     pub tolerance_m: f64,
     /// Replacement of parts that are neither convex nor cut.
     pub concave: ConcaveShape,
@@ -170,7 +170,10 @@ pub fn part_shapes(part: &Component, limits: ShapeLimits) -> Option<PartShapes> 
     let can_be_cut = part.open_edges == 0 && own.len() <= MAX_EXACT_FACES;
     if let Some(cut) = can_be_cut.then(|| bsp::convex_cells(&part.mesh, &own, MAX_PARTS)).flatten() {
         let deviation_m = deviation_m(&part.mesh, &cut);
-        return Some(of_solids(cut, Method::Cut, deviation_m));
+        // Cells between faces that aren't flat can leave gaps.
+        if deviation_m <= limits.tolerance_m {
+            return Some(of_solids(cut, Method::Cut, deviation_m));
+        }
     }
     match limits.concave {
         ConcaveShape::Mesh => SurfaceMesh::new(&part.mesh).map(|surface| PartShapes {
@@ -313,6 +316,36 @@ mod tests {
         let voxels = ShapeLimits { concave: ConcaveShape::Voxels { resolution: 48 }, ..LIMITS };
         let part = components(&weld(&mesh).mesh).swap_remove(0);
         assert_eq!(part_shapes(&part, voxels).unwrap().method, Method::Voxels);
+    }
+
+    #[test]
+    fn exact_a_warped_deck_keeps_its_triangles_where_a_cut_would_leave_gaps() {
+        // A deck with a trapezoidal section, along a curve with a growing crossfall: the quadrilaterals of its sides aren't flat.
+        const SECTIONS: u32 = 9;
+        const RADIUS_M: f64 = 416.0;
+        let section = [[-5.0, 0.0], [5.0, 0.0], [4.0, -1.0], [-4.0, -1.0]];
+        let mut mesh = Mesh::default();
+        for k in 0..SECTIONS {
+            let (s, c) = crate::math::sin_cos(0.05 * f64::from(k));
+            let (sine_of_slope, cosine_of_slope) = crate::math::sin_cos(0.002 * f64::from(k));
+            mesh.vertices_m.extend(section.map(|[y, z]| {
+                let (y, z) = (y * cosine_of_slope - z * sine_of_slope, y * sine_of_slope + z * cosine_of_slope);
+                [(RADIUS_M - y) * s, RADIUS_M - (RADIUS_M - y) * c, z]
+            }));
+        }
+        for first in (0..SECTIONS - 1).map(|k| 4 * k) {
+            for (a, b) in [(0, 1), (1, 2), (2, 3), (3, 0)].map(|(a, b)| (first + a, first + b)) {
+                mesh.triangles.extend([[a, b, b + 4], [a, b + 4, a + 4]]);
+            }
+        }
+        let last = 4 * (SECTIONS - 1);
+        mesh.triangles.extend([[0, 2, 1], [0, 3, 2], [last, last + 1, last + 2], [last, last + 2, last + 3]]);
+        let part = components(&weld(&mesh).mesh).swap_remove(0);
+        assert_eq!(part.open_edges, 0);
+        let cut = bsp::convex_cells(&part.mesh, &faces(&part), MAX_PARTS);
+        assert!(cut.is_some_and(|cut| deviation_m(&part.mesh, &cut) > LIMITS.tolerance_m), "a cut would do");
+        let shapes = converted(&mesh);
+        assert_eq!((shapes.method, shapes.deviation_m), (Method::Mesh, 0.0));
     }
 
     #[test]

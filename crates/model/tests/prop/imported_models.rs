@@ -7,7 +7,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::mesh::Mesh;
 use spandrel_model::mesh::gltf_reader;
-use spandrel_model::mesh::part_shapes::{ConcaveShape, PartShape, ShapeLimits};
+use spandrel_model::mesh::part_shapes::{ConcaveShape, Method, PartShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
 use spandrel_model::mesh::surface_mesh::SurfaceMesh;
 use spandrel_model::mesh::vectors::Point;
@@ -212,6 +212,49 @@ fn exact_units_axes_origin_and_turn_are_applied() {
 fn box_corners(low: [f32; 3], high: [f32; 3]) -> (Vec<[f32; 3]>, Vec<u32>) {
     let mesh = Mesh::of_box(low.map(f64::from), high.map(f64::from));
     (mesh.vertices_m.iter().map(|p| p.map(|value| value as f32)).collect(), mesh.triangles.concat())
+}
+
+/// A slab in millimeters with a round drain, and its placement.
+const SLAB_IFC: &str = include_str!("../../../../fuzz/seeds/model/slab.ifc");
+const SLAB_PLACE: &str = "#22=IFCAXIS2PLACEMENT3D(#23,$,$);\n#23=IFCCARTESIANPOINT((0.,0.,5000.));";
+
+fn imported_ifc(text: &str, options: &ImportOptions) -> ImportedBridge {
+    let none = |file: &str| Err(format!("no file {file}"));
+    let source = ImportSource {
+        file: "slab.ifc",
+        format: ModelFormat::Ifc,
+        bytes: text.as_bytes(),
+        load: &none,
+        elements: ElementMap::default(),
+    };
+    import(&source, options).unwrap()
+}
+
+#[test]
+fn exact_a_bridge_in_coordinates_of_a_map_has_the_same_shapes_as_at_the_origin() {
+    let options = ImportOptions { up: UpAxis::Z, default_element: None, ..options() };
+    let near = imported_ifc(SLAB_IFC, &options);
+    assert!(SLAB_IFC.contains(SLAB_PLACE));
+    let place = "#22=IFCAXIS2PLACEMENT3D(#23,$,#9);\n#9=IFCDIRECTION((0.8660254037844387,0.5,0.));\n\
+                 #23=IFCCARTESIANPOINT((504000000.,4475000000.,185000.));";
+    let turned = ImportOptions { turn_deg: -30.0, ..options };
+    let far = imported_ifc(&SLAB_IFC.replace(SLAB_PLACE, place), &turned);
+    for bridge in [&near, &far] {
+        let [row] = &bridge.report.parts[..] else { panic!("{:?}", bridge.report) };
+        assert_eq!((row.name.as_str(), row.element, row.method), ("deck", Element::RcDeck, Some(Method::Cut)));
+        assert!(row.deviation_m < 1e-4, "{}", row.deviation_m);
+        // The drain is a polygon of 36 corners.
+        let drain_m2 = 18.0 * 0.0625 * math::sin_cos(math::TAU / 36.0).0;
+        let volume: f64 = model(bridge).parts().iter().map(|part| part.shape.mesh().volume_m3()).sum();
+        assert!((volume - 0.25 * (40.0 - drain_m2)).abs() < 1e-3, "{volume}");
+    }
+    let difference = |a: Point, b: Point| (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max);
+    let [(low, high), (far_low, far_high)] = [&near, &far].map(|bridge| model(bridge).extent().whole);
+    assert!(difference(low, far_low).max(difference(high, far_high)) < 1e-4, "{far_low:?} {far_high:?}");
+    assert!(difference(far.report.origin_m, [504_000.0, 4_475_000.0, 185.25]) < 1e-4, "{:?}", far.report.origin_m);
+    let stated = ImportOptions { origin: ModelOrigin::Point([504_000.0, 4_475_000.0, 185.25]), ..turned };
+    let (stated_low, _) = model(&imported_ifc(&SLAB_IFC.replace(SLAB_PLACE, place), &stated)).extent().whole;
+    assert!(difference(far_low, stated_low) < 1e-4, "{stated_low:?}");
 }
 
 /// Returns a model of three boxes, in glTF's axes.

@@ -13,7 +13,7 @@ use crate::mesh::mesh_file::{BufferLoader, MeshFile, MeshNode};
 use crate::mesh::part_shapes::{Method, PartShape, ShapeLimits, part_shapes};
 use crate::mesh::reader::{self, ModelFormat};
 use crate::mesh::topology::components;
-use crate::mesh::vectors::{Point, bounds, sub};
+use crate::mesh::vectors::{Point, add_scaled, bounds, norm, sub};
 use crate::mesh::vertex_colors::ColorsByPlace;
 use crate::mesh::voxel_surface::{CloudLimits, CloudReport, cloud_surface};
 use crate::mesh::weld::weld;
@@ -30,6 +30,9 @@ pub use part_report::{ImportReport, PartReport};
 
 /// Minimum length of the longest side of a bridge, m (estimate: shorter ones have another unit).
 const MIN_LENGTH_M: f64 = 2.0;
+/// Distance from the origin beyond which a model is moved to it, m (estimate: rounding errors of normals shift planes by less than they are
+/// thick).
+const FAR_M: f64 = 1000.0;
 /// Maximum length of a node's name, characters (20 fewer than the readers' limit, for the numbers of its shapes).
 const MAX_NAME_CHARS: usize = 80;
 
@@ -133,7 +136,7 @@ impl std::error::Error for ImportError {}
 /// See [`ImportError`].
 pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<ImportedBridge, ImportError> {
     let content = reader::read(source.format, source.file, source.bytes, source.load).map_err(ImportError::Invalid)?;
-    let skipped = content.skipped.clone();
+    let (skipped, notes) = (content.skipped.clone(), content.notes.clone());
     let (mut nodes, cloud) = nodes_in_bridge_axes(source.file, content, options)?;
     unique_names(nodes.iter_mut().map(|node| &mut node.name));
     let known = elements(&nodes, source, options);
@@ -141,7 +144,8 @@ pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<Imported
         check_known(nodes.iter().zip(&known).map(|(node, element)| (node.name.as_str(), *element)))?;
     }
     check_size(source.file, nodes.iter().flat_map(|node| node.mesh.vertices_m.iter().copied()))?;
-    let fixed = fixed_origin(&nodes, &known, source, options);
+    let moved = move_near_origin(&mut nodes);
+    let fixed = fixed_origin(&nodes, &known, moved, source, options);
     let mut painted = painting::paint(nodes, &known, &source.elements, fixed.unwrap_or_default());
     unique_names(painted.parts.iter_mut().map(|part| &mut part.node.name));
     check_known(painted.parts.iter().map(|part| (part.node.name.as_str(), part.element)))?;
@@ -173,9 +177,10 @@ pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<Imported
         parts: rows,
         lost_parts: made - parts.len(),
         skipped,
+        notes,
         cloud,
         empty_boxes: painted.empty_boxes,
-        origin_m: turn(-options.turn_deg)(origin),
+        origin_m: turn(-options.turn_deg)(add_scaled(origin, moved, 1.0)),
         extent,
     };
     let model = parts_glb(parts.iter());
@@ -357,12 +362,30 @@ fn named(name: &str, element: Element, shapes: Vec<PartShape>) -> Vec<ModelPart>
     shapes.into_iter().enumerate().map(part).collect()
 }
 
+/// Moves the nodes of a model in coordinates of a map by whole meters to the origin, because planes are compared by their distance from it.
+/// Returns where the origin is in the model then.
+fn move_near_origin(nodes: &mut [MeshNode]) -> Point {
+    let around = bounds(nodes.iter().flat_map(|node| node.mesh.vertices_m.iter().copied())).unwrap_or_default();
+    let middle = center(around).map(f64::round);
+    if norm(middle) <= FAR_M {
+        return [0.0; 3];
+    }
+    nodes.iter_mut().flat_map(|node| &mut node.mesh.vertices_m).for_each(|vertex| *vertex = sub(*vertex, middle));
+    middle
+}
+
 /// Returns the origin of the bridge axes, a point in the model with z up and x along the deck, m, if it doesn't depend on the parts: the
 /// requested point or, with boxes, the middle of the deck's upper surface without regard to them, so that boxes can be measured at a
-/// bridge that was imported without them.
-fn fixed_origin(nodes: &[MeshNode], known: &[Option<Element>], source: &ImportSource, options: &ImportOptions) -> Option<Point> {
+/// bridge that was imported without them. `moved` is where the origin of the nodes is in the model.
+fn fixed_origin(
+    nodes: &[MeshNode],
+    known: &[Option<Element>],
+    moved: Point,
+    source: &ImportSource,
+    options: &ImportOptions,
+) -> Option<Point> {
     match options.origin {
-        ModelOrigin::Point(point) => Some(turn(options.turn_deg)(point)),
+        ModelOrigin::Point(point) => Some(sub(turn(options.turn_deg)(point), moved)),
         ModelOrigin::Center if source.elements.has_boxes() => {
             let lists = nodes.iter().zip(known).map(|(node, element)| (element.unwrap_or(UNKNOWN), &node.mesh.vertices_m[..]));
             Some(center(ModelExtent::around(lists).deck))

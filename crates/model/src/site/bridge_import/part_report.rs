@@ -55,6 +55,8 @@ pub struct ImportReport {
     pub lost_parts: usize,
     /// Names of nodes that are no part of a bridge.
     pub skipped: Vec<String>,
+    /// What could not be read from the file, one line each with the part.
+    pub notes: Vec<String>,
     /// Counts of a converted point cloud; `None` for meshes.
     pub cloud: Option<CloudReport>,
     /// Boxes of the elements file without a triangle: number of the row, and the box.
