@@ -2,6 +2,7 @@
 
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
+use crate::io::panics::caught_silently;
 use crate::io::progress::ProgressLog;
 use spandrel_model::elements::Element;
 use spandrel_model::mesh::mesh_file::MAX_FILE_BYTES;
@@ -14,6 +15,7 @@ use spandrel_model::site::bridge_import::{
     self, ELEMENTS_FILE, ImportError, ImportOptions, ImportReport, ImportSource, ImportedBridge, MODEL_FILE, ModelOrigin,
     PartReport, SCENARIO_FILE, UpAxis,
 };
+use std::panic::AssertUnwindSafe;
 use std::path::Path;
 
 /// Number of parts without an element that a message lists.
@@ -68,7 +70,7 @@ pub struct Args {
     /// Element number of all parts that have no other
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999))]
     element: Option<u16>,
-    /// Maximum deviation at which convex solids replace a piece, m
+    /// Maximum deviation of a hull or of a cut that replaces a piece, m
     #[arg(long, value_name = "M", default_value_t = 0.01, value_parser = parse_tolerance)]
     tolerance: f64,
     /// Replace pieces that cannot be cut exactly by hulls of groups of voxels instead of their own triangles; N is the number of voxels
@@ -136,8 +138,11 @@ fn import(args: &Args) -> Result<ImportedBridge, AppError> {
     };
     let source = ImportSource { file: &args.file, format, bytes: &bytes, load: &load, elements };
     let progress = ProgressLog::start("importing the bridge");
-    let imported = bridge_import::import(&source, &options);
+    // Readers of compressed points and of IFC files catch the panics of their libraries.
+    let imported = caught_silently(AssertUnwindSafe(|| bridge_import::import(&source, &options)));
     progress.finish();
+    let imported =
+        imported.ok_or_else(|| AppError::failed(format!("{}: this model cannot be converted; please report it", args.file)))?;
     imported.map_err(|error| import_error(&args.file, error))
 }
 
@@ -145,8 +150,9 @@ fn import(args: &Args) -> Result<ImportedBridge, AppError> {
 fn import_error(file: &str, error: ImportError) -> AppError {
     match error {
         ImportError::Invalid(words) => AppError::invalid(words),
-        ImportError::UnknownElements { parts, elements } => {
+        ImportError::UnknownElements { parts, elements, notes } => {
             print!("{elements}");
+            notes.iter().take(MAX_LISTED).for_each(|note| tracing::warn!("{note}"));
             let shown: Vec<&str> = parts.iter().take(MAX_LISTED).map(String::as_str).collect();
             let more = parts.len().saturating_sub(MAX_LISTED);
             let more = if more > 0 { format!(" and {more} more") } else { String::new() };

@@ -23,6 +23,7 @@ pub mod marks;
 pub mod mcap;
 pub mod net;
 pub mod pacing;
+pub mod panics;
 pub mod params;
 pub mod parquet;
 pub mod pause;

@@ -1,6 +1,7 @@
 //! Opens the display, or reports why no display is available.
 
 use crate::errors::AppError;
+use crate::io::panics::caught_silently;
 use winit::error::EventLoopError;
 use winit::event_loop::EventLoop;
 
@@ -8,15 +9,11 @@ use winit::event_loop::EventLoop;
 pub fn open() -> Result<EventLoop<()>, AppError> {
     // The keyboard library is loaded on first use, and the loader panics if it is missing. Convert the panic to an
     // error.
-    let told = std::panic::take_hook();
-    std::panic::set_hook(Box::new(|_| {}));
-    let opened = std::panic::catch_unwind(EventLoop::new);
-    std::panic::set_hook(told);
-    let why = match opened {
-        Ok(Ok(events)) => return Ok(events),
-        Ok(Err(EventLoopError::Os(_))) => display_problem(),
-        Ok(Err(error)) => error.to_string(),
-        Err(_) => {
+    let why = match caught_silently(EventLoop::new) {
+        Some(Ok(events)) => return Ok(events),
+        Some(Err(EventLoopError::Os(_))) => display_problem(),
+        Some(Err(error)) => error.to_string(),
+        None => {
             "a library is missing; on Debian and Ubuntu, run apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 \
                    libxrandr2"
                 .to_owned()

@@ -118,7 +118,7 @@ def add_substructure(writer):
     kind = writer.product("IfcBearingType", "pad", "ELASTOMERIC")
     ifcopenshell.api.geometry.assign_representation(file, product=kind, representation=writer.box(0.5, 0.6, 0.2))
     for k, (x, y) in enumerate((x, y) for x in (-12.0, 12.0) for y in (-2.0, 2.0)):
-        column = writer.product("IfcColumn", f"column-{k + 1}", "PIERSTEM")
+        column = writer.product("IfcColumn", f"column-{k + 1}", "COLUMN")
         circle = file.createIfcCircleProfileDef("AREA", None, None, 1000.0 * radius)
         writer.add(column, writer.extrusion(circle, height), placed(x, y, 0.6))
         bearing = writer.product("IfcBearing", f"bearing-{k + 1}")

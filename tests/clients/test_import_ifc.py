@@ -13,7 +13,7 @@ from bridge_models import spandrel_import
 
 # Relative tolerance for volumes: Spandrel's circles have 36 corners, and ifcopenshell's many. The rest is plane.
 CIRCLE_TOLERANCE, VOLUME_TOLERANCE = 6e-3, 1e-4
-# Tolerance for extents, m: 36 corners of a circle of 0.5 m lie up to 1.9 mm from its sides; the rest is plane.
+# Tolerance for extents, m: the sides of the 36 corners on a circle of 0.5 m lie up to 1.9 mm inside it; the rest is plane.
 CIRCLE_M, EXTENT_M = 2e-3, 1e-4
 # The least that an expert synthetic trainee reaches on the straight lines beside and below the bridge, as a share of the frames.
 MIN_ON_PATH = 0.9

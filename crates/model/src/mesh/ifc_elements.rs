@@ -45,6 +45,8 @@ pub(super) struct Traits {
     pub(super) location: Option<Location>,
     /// Its material, if it is known and the only one.
     pub(super) material: Option<Material>,
+    /// Whether the file has girders. Without them, the slab of a deck is a slab bridge.
+    pub(super) has_girders: bool,
 }
 
 /// One row of the table of elements.
@@ -94,6 +96,8 @@ const ARCHES: Choice = ByMaterial(&[
 const ABUTMENTS: Choice = ByMaterial(&[(Concrete, Element::RcAbutment), (Masonry, Element::MasonryAbutment)]);
 const PIER_WALLS: Choice = ByMaterial(&[(Concrete, Element::RcPierWall), (Masonry, Element::MasonryPierWall)]);
 
+const FOOTINGS: [&str; 5] = ["FOOTING_BEAM", "PAD_FOOTING", "PILE_CAP", "STRIP_FOOTING", "-"];
+
 /// The table of elements: the first row that fits counts. docs/src/how-to/import.md lists it.
 static RULES: [Rule; 23] = [
     rule(IfcType::IfcBearing, &["ELASTOMERIC"], None, Fixed(Element::ElastomericBearing)),
@@ -107,12 +111,12 @@ static RULES: [Rule; 23] = [
     rule(IfcType::IfcWall, &[], Some(Location::Pier), PIER_WALLS),
     rule(IfcType::IfcSlab, &["APPROACH_SLAB"], None, APPROACH_SLABS),
     rule(IfcType::IfcSlab, &["WEARING"], None, Fixed(Element::WearingSurface)),
-    rule(IfcType::IfcSlab, &["FLOOR", "BASESLAB", "USERDEFINED", "-"], Some(Location::Deck), DECKS),
+    rule(IfcType::IfcSlab, &["FLOOR", "USERDEFINED", "-"], Some(Location::Deck), DECKS),
     rule(IfcType::IfcCourse, &["PAVEMENT"], Some(Location::Deck), Fixed(Element::WearingSurface)),
     rule(IfcType::IfcPavement, &[], Some(Location::Deck), Fixed(Element::WearingSurface)),
-    rule(IfcType::IfcColumn, &[], None, COLUMNS),
-    rule(IfcType::IfcFooting, &[], None, ByMaterial(&[(Concrete, Element::RcFooting)])),
-    rule(IfcType::IfcPile, &[], None, PILES),
+    rule(IfcType::IfcColumn, &["COLUMN", "STANDCOLUMN", "-"], None, COLUMNS),
+    rule(IfcType::IfcFooting, &FOOTINGS, None, ByMaterial(&[(Concrete, Element::RcFooting)])),
+    rule(IfcType::IfcPile, &["BORED", "DRIVEN", "COHESION", "FRICTION", "SUPPORT", "-"], None, PILES),
     rule(IfcType::IfcBeam, &["PIERCAP"], None, PIER_CAPS),
     rule(IfcType::IfcBeam, &["T_BEAM"], None, T_BEAMS),
     rule(IfcType::IfcMember, &["ARCH_SEGMENT"], None, ARCHES),
@@ -133,7 +137,12 @@ pub(super) fn element_of(traits: &Traits) -> Option<Element> {
             && (rule.kinds.is_empty() || rule.kinds.contains(&kind))
             && (rule.location.is_none() || rule.location == traits.location)
     };
-    match RULES.iter().find(fits)?.element {
+    let rule = RULES.iter().find(fits)?;
+    let is_deck_slab = rule.class == IfcType::IfcSlab && rule.location == Some(Location::Deck);
+    if is_deck_slab && !traits.has_girders {
+        return None;
+    }
+    match rule.element {
         Fixed(element) => Some(element),
         ByMaterial(list) => {
             let by = |material: Material| list.iter().find(|(own, _)| *own == material).map(|(_, element)| *element);
@@ -154,12 +163,40 @@ pub(super) fn location(kind: &str) -> Option<Location> {
 }
 
 /// Parts of words for materials in English, German and Spanish.
-const CONCRETE_WORDS: [&str; 3] = ["concrete", "beton", "hormig"];
+const CONCRETE_WORDS: [&str; 4] = ["concrete", "beton", "hormig", "concreto"];
 const STEEL_WORDS: [&str; 3] = ["steel", "stahl", "acero"];
 const TIMBER_WORDS: [&str; 5] = ["timber", "wood", "glulam", "holz", "madera"];
-const MASONRY_WORDS: [&str; 7] = ["masonry", "brick", "stone", "mauerwerk", "ziegel", "mamposter", "ladrillo"];
-const PRESTRESSED_WORDS: [&str; 5] = ["prestressed", "pre-stressed", "spannbeton", "pretensado", "postensado"];
-const REINFORCED_WORDS: [&str; 3] = ["reinforced", "stahlbeton", "armado"];
+const MASONRY_WORDS: [&str; 10] =
+    ["masonry", "brick", "stone", "mauerwerk", "ziegel", "naturstein", "bruchstein", "mamposter", "ladrillo", "piedra"];
+const PRESTRESSED_WORDS: [&str; 13] = [
+    "prestressed",
+    "pre-stressed",
+    "pretension",
+    "pre-tension",
+    "posttension",
+    "post-tension",
+    "spannbeton",
+    "vorgespannt",
+    "pretensad",
+    "pretesad",
+    "postesad",
+    "postensad",
+    "presforzad",
+];
+const REINFORCED_WORDS: [&str; 4] = ["reinforced", "stahlbeton", "armado", "reforzado"];
+/// Words of materials that are none of these families, although they contain such words.
+const OTHER_WORDS: [&str; 10] = [
+    "asphalt",
+    "asfált",
+    "asfalt",
+    "bitum",
+    "unreinforced",
+    "unbewehrt",
+    "sin armar",
+    "reinforcing steel",
+    "bewehrungsstahl",
+    "betonstahl",
+];
 /// Grades of structural steel (EN 10025).
 const STEEL_GRADES: [&str; 6] = ["s235", "s275", "s355", "s420", "s460", "s690"];
 
@@ -167,6 +204,9 @@ const STEEL_GRADES: [&str; 6] = ["s235", "s275", "s355", "s420", "s460", "s690"]
 pub(super) fn material(name: &str, category: &str) -> Option<Material> {
     let text = format!("{name} {category}").to_lowercase();
     let has = |words: &[&str]| words.iter().any(|word| text.contains(word));
+    if has(&OTHER_WORDS) {
+        return None;
+    }
     let mut grades = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '/'));
     let has_grade = |is_grade: fn(&str) -> bool| grades.clone().any(is_grade);
     let is_concrete = has(&CONCRETE_WORDS) || has_grade(is_concrete_grade);
@@ -197,14 +237,14 @@ mod tests {
 
     fn number(class: IfcType, kind: &str, location: Option<Location>, material: Option<Material>) -> Option<u16> {
         let kind = (!kind.is_empty()).then(|| kind.to_owned());
-        element_of(&Traits { class, kind, location, material }).map(Element::number)
+        element_of(&Traits { class, kind, location, material, has_girders: true }).map(Element::number)
     }
 
     #[test]
     fn exact_classes_types_places_and_materials_determine_elements() {
         assert_eq!(number(IfcType::IfcBearing, "ELASTOMERIC", None, None), Some(310));
         assert_eq!(number(IfcType::IfcBearing, "POT", None, Some(Steel)), Some(314));
-        assert_eq!(number(IfcType::IfcColumn, "PIERSTEM", None, Some(Reinforced)), Some(205));
+        assert_eq!(number(IfcType::IfcColumn, "COLUMN", None, Some(Reinforced)), Some(205));
         assert_eq!(number(IfcType::IfcColumn, "", None, Some(Steel)), Some(202));
         assert_eq!(number(IfcType::IfcSlab, "", Some(Location::Deck), Some(Concrete)), Some(12));
         assert_eq!(number(IfcType::IfcWallStandardCase, "STANDARD", Some(Location::Abutment), Some(Concrete)), Some(215));
@@ -222,6 +262,8 @@ mod tests {
         assert_eq!(number(IfcType::IfcBeam, "T_BEAM", None, Some(Concrete)), None, "reinforced or prestressed");
         assert_eq!(number(IfcType::IfcBeam, "GIRDER_SEGMENT", None, Some(Steel)), None, "an open girder or a box");
         assert_eq!(number(IfcType::IfcRailing, "FENCE", None, Some(Steel)), None);
+        assert_eq!(number(IfcType::IfcColumn, "PIERSTEM", None, Some(Concrete)), None, "a column or a wall");
+        assert_eq!(number(IfcType::IfcPile, "JETGROUTING", None, Some(Concrete)), None, "soil");
     }
 
     #[test]
@@ -232,10 +274,27 @@ mod tests {
         assert_eq!(found("C30/37"), Some(Concrete));
         assert_eq!(found("Stahlbeton C40/50"), Some(Reinforced));
         assert_eq!(found("Hormig\u{f3}n pretensado"), Some(Prestressed));
+        for prestressed in ["Post-tensioned concrete", "Beton C40/50, vorgespannt", "Concreto presforzado", "Hormigón postesado"]
+        {
+            assert_eq!(found(prestressed), Some(Prestressed), "{prestressed}");
+        }
+        assert_eq!(found("Concreto reforzado"), Some(Reinforced));
         assert_eq!(found("Glulam GL24h"), Some(Timber));
+        assert_eq!([found("Natursteinquader"), found("Piedra natural")], [Some(Masonry); 2]);
         assert_eq!(found("Natural stone"), Some(Masonry));
         assert_eq!(material("Type 7", "concrete"), Some(Concrete));
-        for doubt in ["", "Default", "Steel and concrete", "Betonstahl B500", "S1234", "C3/4 paint", "fiber reinforced polymer"] {
+        let none = [
+            "Asphalt concrete",
+            "Asphaltbeton",
+            "Hormigón asfáltico",
+            "Reinforcing steel",
+            "Bewehrungsstahl",
+            "Unreinforced concrete",
+        ];
+        for doubt in ["", "Default", "Steel and concrete", "Betonstahl B500", "S1234", "C3/4 paint", "fiber reinforced polymer"]
+            .iter()
+            .chain(&none)
+        {
             assert_eq!(found(doubt), None, "{doubt}");
         }
     }

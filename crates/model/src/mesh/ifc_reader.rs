@@ -5,7 +5,7 @@ use super::Mesh;
 use super::ifc_elements::element_of;
 use super::ifc_relations::Relations;
 use super::mesh_file::{MAX_NODES, MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check_vertex, clean_name};
-use super::vectors::Point;
+use super::vectors::{Point, add_scaled};
 use ifc_lite_core::{DecodedEntity, EntityDecoder, EntityScanner, IfcType, RtcVerdict, SchemaVersion, is_geometry_job, slot};
 use ifc_lite_geometry::{GeometryRouter, RouterConfig, void_index_from_content};
 use rustc_hash::FxHashMap;
@@ -18,14 +18,19 @@ const LAST_WORDS: &[u8] = b"END-ISO-10303-21";
 const END_BYTES: usize = 4096;
 /// Schemas that the library knows.
 const SCHEMAS: &str = "IFC2X3, IFC4, IFC4X1, IFC4X2 or IFC4X3";
+/// Classes, in capitals, on which the slab of a deck rests; without them, the bridge is a slab bridge.
+const GIRDERS: [&str; 2] = ["IFCBEAM", "IFCMEMBER"];
 /// Attributes of each product: its global ID and its name.
 const GLOBAL_ID: usize = 0;
 const NAME: usize = 2;
+/// Number of decoded entities that are kept for other products (estimate: far more than one product refers to).
+const MAX_CACHED_ENTITIES: usize = 200_000;
 /// Number of notes on products without geometry in an error (estimate: more hide the first).
 const NOTES_IN_ERROR: usize = 3;
 
-/// Classes of products that are no part of a bridge: spaces and land, axes and grids, models of loads, and bars inside of concrete.
-const OTHER_CLASSES: [IfcType; 16] = [
+/// Classes of products that are no part of a bridge: structures whose parts are products of their own, spaces and land, axes and grids,
+/// models of loads, bars and tendons inside concrete, bolts and welds.
+const OTHER_CLASSES: [IfcType; 19] = [
     IfcType::IfcSpace,
     IfcType::IfcSite,
     IfcType::IfcSpatialZone,
@@ -40,8 +45,11 @@ const OTHER_CLASSES: [IfcType; 16] = [
     IfcType::IfcGeographicElement,
     IfcType::IfcGeotechnicalElement,
     IfcType::IfcEarthworksElement,
-    IfcType::IfcReinforcingBar,
-    IfcType::IfcReinforcingMesh,
+    IfcType::IfcReinforcingElement,
+    IfcType::IfcFacility,
+    IfcType::IfcFacilityPart,
+    IfcType::IfcFastener,
+    IfcType::IfcMechanicalFastener,
 ];
 
 /// Reads an IFC file. `file` is its name in messages.
@@ -63,11 +71,11 @@ fn check_frame(bytes: &[u8]) -> Result<(), String> {
     let declared = ifc_lite_core::declared_schema_bounded(bytes);
     if !declared.as_deref().is_some_and(known) {
         let found = declared.unwrap_or_else(|| "none".to_owned());
-        return Err(format!("FILE_SCHEMA = {found} (allowed: {SCHEMAS})"));
+        return Err(format!("FILE_SCHEMA = {} (allowed: {SCHEMAS})", found.escape_default()));
     }
     let end = &bytes[bytes.len().saturating_sub(END_BYTES)..];
     if !end.windows(LAST_WORDS.len()).any(|words| words == LAST_WORDS) {
-        return Err(format!("truncated: {} bytes without END-ISO-10303-21 at their end", bytes.len()));
+        return Err(format!("truncated: END-ISO-10303-21 is missing at the end ({} bytes)", bytes.len()));
     }
     Ok(())
 }
@@ -81,6 +89,8 @@ struct Place {
     id: u32,
     start: usize,
     end: usize,
+    /// Whether it is a beam or a bar of a truss or an arch, on which a deck rests.
+    is_girder: bool,
 }
 
 fn decode(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
@@ -91,6 +101,7 @@ fn decode(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
     let openings = void_index_from_content(bytes, &mut decoder);
     let mut reader = ProductReader { file, bytes, decoder, router, relations, triangles: 0, skipped: BTreeMap::new() };
     let mut content = MeshFile::default();
+    reader.relations.has_girders = products.iter().any(|place| place.is_girder);
     for (k, place) in products.iter().enumerate() {
         let entity = reader.decoder.decode_at_with_id(place.id, place.start, place.end);
         let entity = entity.map_err(|error| format!("{}: {error}", reader.at(*place)))?;
@@ -106,7 +117,13 @@ fn decode(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
         if mesh.triangles.is_empty() {
             continue;
         }
-        let element = reader.element(&entity).map_err(|words| format!("{}: {words}", reader.at(*place)))?;
+        let element = reader.element(&entity).unwrap_or_else(|words| {
+            content.notes.push(format!("{label}: {words}"));
+            None
+        });
+        if reader.decoder.cache_size() > MAX_CACHED_ENTITIES {
+            reader.decoder.clear_entity_cache();
+        }
         content.nodes.push(MeshNode { name, element, is_surface: false, mesh, colors: Vec::new(), ignored_primitives: 0 });
         if content.nodes.len() > MAX_NODES {
             return Err(format!("{file}: more than {MAX_NODES} products with a body"));
@@ -130,7 +147,7 @@ fn scan(file: &str, bytes: &[u8], decoder: &mut EntityDecoder, relations: &mut R
             if !ids.insert(id) {
                 return Err(format!("{file}:{}: #{id}: occurs twice (allowed: once)", line(bytes, start)));
             }
-            products.push(Place { id, start, end });
+            products.push(Place { id, start, end, is_girder: GIRDERS.contains(&class) });
         } else if relations.takes(class) {
             let entity = decoder.decode_at_uncached(start, end);
             let entity = entity.map_err(|error| format!("{file}:{}: #{id}: {error}", line(bytes, start)))?;
@@ -141,7 +158,11 @@ fn scan(file: &str, bytes: &[u8], decoder: &mut EntityDecoder, relations: &mut R
         return Err(format!("{file}:{}: an entity without an end (allowed: #number=NAME(...);)", line(bytes, start)));
     }
     if let Some(start) = scanner.skipped_oversized_id_starts().first() {
-        return Err(format!("{file}:{}: number of an entity (allowed: at most {})", line(bytes, *start), u32::MAX));
+        return Err(format!(
+            "{file}:{}: the number of an entity is too large (allowed: at most {})",
+            line(bytes, *start),
+            u32::MAX
+        ));
     }
     Ok(products)
 }
@@ -213,7 +234,8 @@ impl ProductReader<'_> {
         }
         let failed: usize = self.router.take_csg_failures().values().map(Vec::len).sum();
         if failed > 0 {
-            notes.push(format!("{failed} problems with cuts, {cut} openings: compare the part with the model"));
+            let plural = if failed == 1 { "" } else { "s" };
+            notes.push(format!("{failed} cut{plural} failed (openings: {cut}): compare the part with the model"));
         }
         let parts = match parts {
             Ok(Ok(parts)) => parts,
@@ -226,18 +248,21 @@ impl ProductReader<'_> {
                 Vec::new()
             }
         };
+        if notes.is_empty() && parts.iter().all(|part| part.indices.is_empty()) {
+            notes.push("left out: no triangles".to_owned());
+        }
         let (x, y, z) = self.router.rtc_offset();
-        let mesh = joined(&parts, [x, y, z]);
-        (mesh.and_then(|mesh| self.counted(mesh)), notes)
+        (self.count(&parts).and_then(|()| joined(&parts, [x, y, z])), notes)
     }
 
     /// Checks the number of triangles of all products so far.
-    fn counted(&mut self, mesh: Mesh) -> Result<Mesh, String> {
-        self.triangles += mesh.triangles.len().max(mesh.vertices_m.len());
+    fn count(&mut self, parts: &[ifc_lite_geometry::Mesh]) -> Result<(), String> {
+        let sum = |length: fn(&ifc_lite_geometry::Mesh) -> usize| parts.iter().map(length).sum::<usize>() / 3;
+        self.triangles += sum(|part| part.indices.len()).max(sum(|part| part.positions.len()));
         if self.triangles > MAX_TRIANGLES {
             return Err(format!("more than {MAX_TRIANGLES} triangles or vertices in the file"));
         }
-        Ok(mesh)
+        Ok(())
     }
 
     /// Returns the element of a product: by its property, or by its class.
@@ -253,9 +278,10 @@ fn joined(parts: &[ifc_lite_geometry::Mesh], offset: Point) -> Result<Mesh, Stri
     for part in parts {
         let first = mesh.vertices_m.len();
         for own in part.positions.chunks_exact(3) {
-            let vertex = [0, 1, 2].map(|k: usize| f64::from(own[k]) + part.origin[k] + offset[k]);
-            check_vertex(mesh.vertices_m.len(), vertex)?;
-            mesh.vertices_m.push(vertex);
+            // Coordinates of a map may be larger than those in it are allowed to be.
+            let near = [0, 1, 2].map(|k: usize| f64::from(own[k]) + part.origin[k]);
+            check_vertex(mesh.vertices_m.len(), near)?;
+            mesh.vertices_m.push(add_scaled(near, offset, 1.0));
         }
         let count = mesh.vertices_m.len() - first;
         if let Some(index) = part.indices.iter().find(|index| **index as usize >= count) {
@@ -385,11 +411,14 @@ mod tests {
 
     #[test]
     fn exact_products_that_are_no_part_of_a_bridge_are_counted() {
-        let text = [(COLUMN, 20), (("IFCREINFORCINGBAR", ",$,$,$,$,$,$,$"), 40), (("IFCREINFORCINGBAR", ",$,$,$,$,$,$,$"), 60)]
+        let text = [(COLUMN, 20), (("IFCREINFORCINGBAR", ",$,$,$,$,$,$,$"), 40), (("IFCTENDON", ",$,$,$,$,$,$,$,$,$"), 60)]
             .map(|(class, id)| BoxProduct::new(id, class, "'a'", [0.0; 3], [1.0; 3]).text())
             .concat();
         let content = content(&(text + "#80=IFCSITE('site',$,'without a shape',$,$,$,$,$,$,$,$,$,$,$);\n"));
-        assert_eq!((content.nodes.len(), &content.skipped[..]), (1, &["2 IfcReinforcingBar".to_owned()][..]));
+        assert_eq!(
+            (content.nodes.len(), &content.skipped[..]),
+            (1, &["1 IfcReinforcingBar".to_owned(), "1 IfcTendon".to_owned()][..])
+        );
     }
 
     #[test]
@@ -411,14 +440,16 @@ mod tests {
     fn exact_types_and_parts_of_the_bridge_determine_elements() {
         let bearing = BoxProduct::new(20, ("IFCBEARING", ",$,.NOTDEFINED."), "$", [0.0; 3], [1.0; 3]).text();
         let slab = BoxProduct::new(40, SLAB, "$", [0.0; 3], [1.0; 3]).text();
+        let beam = BoxProduct::new(60, ("IFCBEAM", ",$,.GIRDER_SEGMENT."), "$", [0.0; 3], [1.0; 3]).text();
         let relations = "#200=IFCBEARINGTYPE('k',$,'pads',$,$,$,$,$,$,.ELASTOMERIC.);\n#201=IFCRELDEFINESBYTYPE('d',$,$,$,(#20),#200);\n\
              #202=IFCBRIDGEPART('p',$,'deck',$,$,$,$,$,.ELEMENT.,.NOTDEFINED.,.DECK.);\n\
              #203=IFCRELCONTAINEDINSPATIALSTRUCTURE('c',$,$,$,(#40),#202);\n\
              #204=IFCMATERIAL('Concrete',$,$);\n#205=IFCMATERIALLAYER(#204,250.,$,$,$,$,$);\n\
              #206=IFCMATERIALLAYERSET((#205),$,$);\n#207=IFCMATERIALLAYERSETUSAGE(#206,.AXIS3.,.POSITIVE.,0.,$);\n\
              #208=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#40),#207);\n";
-        let found: Vec<Option<u16>> = content(&(bearing + &slab + relations)).nodes.iter().map(|node| node.element).collect();
-        assert_eq!(found, [Some(310), Some(12)]);
+        let found: Vec<Option<u16>> =
+            content(&(bearing + &slab + &beam + relations)).nodes.iter().map(|node| node.element).collect();
+        assert_eq!(found, [Some(310), Some(12), None]);
     }
 
     #[test]
@@ -438,15 +469,9 @@ mod tests {
         assert_eq!(error("solid a\n"), "a.ifc: not an IFC file (allowed: the STEP format, which begins with ISO-10303-21)");
         assert_eq!(error(&good.replace("IFC4X3_ADD2", "AP242")), format!("a.ifc: FILE_SCHEMA = AP242 (allowed: {SCHEMAS})"));
         let cut = &good[..good.len() - 30];
-        assert_eq!(error(cut), format!("a.ifc: truncated: {} bytes without END-ISO-10303-21 at their end", cut.len()));
+        assert_eq!(error(cut), format!("a.ifc: truncated: END-ISO-10303-21 is missing at the end ({} bytes)", cut.len()));
         assert_eq!(error(&file(METERS, "")), "a.ifc: no triangles (allowed: at least one product with a body)");
         assert_eq!(error(&file(METERS, &(column.clone() + &column))), "a.ifc:24: #20: occurs twice (allowed: once)");
-        let tag = "#60=IFCPROPERTYSINGLEVALUE('element',$,IFCLABEL('deck'),$);\n#61=IFCPROPERTYSET('s',$,'Inspection',$,(#60));\n\
-             #62=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#20),#61);\n";
-        assert_eq!(
-            error(&file(METERS, &(column.clone() + tag))),
-            "a.ifc:16: #20: property #60: element = \"deck\" (allowed: 1 to 999)"
-        );
         let unit = good.replace(
             "#5=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);",
             "#5=IFCCONVERSIONBASEDUNIT(*,.LENGTHUNIT.,'ELL',#9);\n#9=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(-1.),$);",
@@ -454,6 +479,44 @@ mod tests {
         assert_eq!(error(&unit), "a.ifc: IfcUnitAssignment: the length unit has no valid factor to meters");
         let broken = error(&good.replace("#20=IFCCOLUMN('guid-20'", "#20=IFCCOLUMN(('guid-20'"));
         assert!(broken.starts_with("a.ifc:"), "{broken}");
+    }
+
+    #[test]
+    fn regress_properties_of_other_programs_are_noted() {
+        let column = BoxProduct::new(20, COLUMN, "'a'", [0.0; 3], [1.0; 3]).text();
+        let tag = "#60=IFCPROPERTYSINGLEVALUE('element',$,IFCLABEL('Wall-03'),$);\n#61=IFCPROPERTYSET('s',$,'Other',$,(#60));\n\
+             #62=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#20),#61);\n";
+        let content = content(&(column + tag));
+        assert_eq!((content.nodes.len(), content.nodes[0].element), (1, None));
+        assert_eq!(content.notes, ["#20 IfcColumn a: property #60: element = \"Wall-03\" (allowed: 1 to 999)"]);
+    }
+
+    #[test]
+    fn regress_long_lists_on_both_sides_of_a_relation_take_little_memory() {
+        // Stored as pairs, these would be 10^10 values.
+        const LENGTH: usize = 100_000;
+        let column = BoxProduct::new(20, COLUMN, "'a'", [0.0; 3], [1.0; 3]).text();
+        let products = (0..LENGTH).map(|k| format!("#{}", 1000 + k)).collect::<Vec<_>>().join(",");
+        let content = content(&format!("{column}#62=IFCRELDEFINESBYPROPERTIES('r',$,$,$,({products}),({products}));\n"));
+        assert_eq!((content.nodes.len(), content.nodes[0].element), (1, None));
+    }
+
+    #[test]
+    fn exact_a_slab_in_a_deck_without_girders_is_no_deck() {
+        let slab = BoxProduct::new(40, SLAB, "$", [0.0; 3], [1.0; 3]).text();
+        let relations = "#202=IFCBRIDGEPART('p',$,'deck',$,$,$,$,$,.ELEMENT.,.NOTDEFINED.,.DECK.);\n\
+             #203=IFCRELCONTAINEDINSPATIALSTRUCTURE('c',$,$,$,(#40),#202);\n\
+             #204=IFCMATERIAL('Concrete',$,$);\n#208=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#40),#204);\n";
+        let beam = BoxProduct::new(60, ("IFCBEAM", ",$,.GIRDER_SEGMENT."), "$", [0.0; 3], [1.0; 3]).text();
+        assert_eq!(content(&(slab.clone() + relations)).nodes[0].element, None);
+        assert_eq!(content(&(slab + &beam + relations)).nodes[0].element, Some(12));
+    }
+
+    #[test]
+    fn exact_maps_with_a_zone_in_their_eastings_are_allowed() {
+        let far = [32_504_000.25, 5_475_000.125, 180.0];
+        let placed = content(&BoxProduct::new(20, COLUMN, "'a'", far, [0.02, 1.0, 6.0]).text());
+        assert_bounds(&placed.nodes[0], [far[0] - 0.01, far[1] - 0.5, 180.0], [far[0] + 0.01, far[1] + 0.5, 186.0], 1e-6);
     }
 
     #[test]

@@ -23,15 +23,22 @@ const MAX_MATERIALS: usize = 1000;
 /// The relations that determine the elements of products.
 #[derive(Debug, Default)]
 pub(super) struct Relations {
+    /// Whether the file has girders.
+    pub(super) has_girders: bool,
     /// The assembly of a part.
     assemblies: BTreeMap<u32, u32>,
     /// The spatial structure that contains a product.
     structures: BTreeMap<u32, u32>,
     types: BTreeMap<u32, u32>,
     materials: BTreeMap<u32, u32>,
-    property_sets: BTreeMap<u32, Vec<u32>>,
-    /// Element numbers by their property set.
+    /// Sets of properties that products share, and their indices by product.
+    shared_sets: Vec<Vec<u32>>,
+    property_sets: BTreeMap<u32, Vec<usize>>,
+    /// Element numbers that were found before, by property set and by product, type or structure.
+    tags_of_sets: BTreeMap<u32, Option<u16>>,
     tags: BTreeMap<u32, Option<u16>>,
+    /// Materials that were found before, by the entity that a product refers to.
+    found_materials: BTreeMap<u32, Option<Material>>,
 }
 
 impl Relations {
@@ -58,7 +65,10 @@ impl Relations {
                 return;
             }
             IfcType::IfcRelDefinesByProperties => {
-                first.iter().for_each(|id| self.property_sets.entry(*id).or_default().extend(&second));
+                let index = self.shared_sets.len();
+                self.shared_sets.push(second);
+                let products: BTreeSet<u32> = first.into_iter().collect();
+                products.into_iter().for_each(|id| self.property_sets.entry(id).or_default().push(index));
                 return;
             }
             IfcType::IfcRelContainedInSpatialStructure => &mut self.structures,
@@ -86,24 +96,36 @@ impl Relations {
     /// Returns the entity and the value if it is no element number.
     pub(super) fn tag(&mut self, id: u32, decoder: &mut EntityDecoder) -> Result<Option<u16>, String> {
         for ancestor in self.ancestors(id) {
-            let mut sets = self.property_sets.get(&ancestor).cloned().unwrap_or_default();
-            if let Some(kind) = self.types.get(&ancestor).and_then(|kind| decoder.decode_by_id(*kind).ok()) {
-                sets.extend(kind.get_refs(TYPE_PROPERTY_SETS).unwrap_or_default());
+            let known = self.tags.get(&ancestor).copied();
+            let tag = known.map_or_else(|| self.own_tag(ancestor, decoder), Ok)?;
+            self.tags.insert(ancestor, tag);
+            if tag.is_some() {
+                return Ok(tag);
             }
-            for set in sets {
-                let known = self.tags.get(&set).copied();
-                let tag = known.map_or_else(|| tag_in(set, decoder), Ok)?;
-                self.tags.insert(set, tag);
-                if tag.is_some() {
-                    return Ok(tag);
-                }
+        }
+        Ok(None)
+    }
+
+    /// Returns the element number in the properties of an entity, or of its type.
+    fn own_tag(&mut self, id: u32, decoder: &mut EntityDecoder) -> Result<Option<u16>, String> {
+        let indices = self.property_sets.get(&id).into_iter().flatten();
+        let mut sets: Vec<u32> = indices.filter_map(|index| self.shared_sets.get(*index)).flatten().copied().collect();
+        if let Some(kind) = self.types.get(&id).and_then(|kind| decoder.decode_by_id(*kind).ok()) {
+            sets.extend(kind.get_refs(TYPE_PROPERTY_SETS).unwrap_or_default());
+        }
+        for set in sets {
+            let known = self.tags_of_sets.get(&set).copied();
+            let tag = known.map_or_else(|| tag_in(set, decoder), Ok)?;
+            self.tags_of_sets.insert(set, tag);
+            if tag.is_some() {
+                return Ok(tag);
             }
         }
         Ok(None)
     }
 
     /// Returns what determines the element of a product without a number of its own.
-    pub(super) fn traits(&self, entity: &DecodedEntity, decoder: &mut EntityDecoder) -> Traits {
+    pub(super) fn traits(&mut self, entity: &DecodedEntity, decoder: &mut EntityDecoder) -> Traits {
         let chain = self.ancestors(entity.id);
         let around = chain.iter().skip(1).find_map(|id| self.location(*id, decoder));
         Traits {
@@ -111,6 +133,7 @@ impl Relations {
             kind: self.kind(entity, decoder),
             location: around,
             material: self.material(entity.id, decoder),
+            has_girders: self.has_girders,
         }
     }
 
@@ -129,28 +152,35 @@ impl Relations {
     }
 
     /// Returns the material of a product or, without one, of its type; `None` if there are several, or unknown ones.
-    fn material(&self, id: u32, decoder: &mut EntityDecoder) -> Option<Material> {
+    fn material(&mut self, id: u32, decoder: &mut EntityDecoder) -> Option<Material> {
         let by_type = || self.materials.get(self.types.get(&id)?);
-        let mut open = vec![*self.materials.get(&id).or_else(by_type)?];
-        let mut seen = BTreeSet::new();
-        let mut found = BTreeSet::new();
-        while let Some(next) = open.pop().filter(|_| seen.len() < MAX_MATERIALS) {
-            let Ok(entity) = decoder.decode_by_id(next) else { continue };
-            if !seen.insert(next) || !entity.ifc_type.name().starts_with("IfcMaterial") {
-                continue;
-            }
-            if entity.ifc_type == IfcType::IfcMaterial {
-                found.insert(material(
-                    entity.get_string(NAME).unwrap_or_default(),
-                    entity.get_string(CATEGORY).unwrap_or_default(),
-                ));
-            } else {
-                entity.attributes.iter().for_each(|attribute| push_refs(attribute, &mut open));
-            }
-        }
-        let only = found.pop_first()?;
-        if found.is_empty() { only } else { None }
+        let first = *self.materials.get(&id).or_else(by_type)?;
+        *self.found_materials.entry(first).or_insert_with(|| only_material(first, decoder))
     }
+}
+
+/// Returns the material of all entities that a material, its layers or its constituents consist of; `None` if they differ, one is
+/// unknown, or there are too many.
+fn only_material(first: u32, decoder: &mut EntityDecoder) -> Option<Material> {
+    let mut open = vec![first];
+    let mut seen = BTreeSet::new();
+    let mut found = BTreeSet::new();
+    while let Some(next) = open.pop() {
+        if seen.len() >= MAX_MATERIALS {
+            return None;
+        }
+        let Ok(entity) = decoder.decode_by_id(next) else { continue };
+        if !seen.insert(next) || !entity.ifc_type.name().starts_with("IfcMaterial") {
+            continue;
+        }
+        if entity.ifc_type == IfcType::IfcMaterial {
+            found.insert(material(entity.get_string(NAME).unwrap_or_default(), entity.get_string(CATEGORY).unwrap_or_default()));
+        } else {
+            entity.attributes.iter().for_each(|attribute| push_refs(attribute, &mut open));
+        }
+    }
+    let only = found.pop_first()?;
+    if found.is_empty() { only } else { None }
 }
 
 fn push_refs(attribute: &AttributeValue, open: &mut Vec<u32>) {
@@ -184,7 +214,7 @@ fn tag_in(set: u32, decoder: &mut EntityDecoder) -> Result<Option<u16>, String> 
 }
 
 fn shown(value: Option<&AttributeValue>) -> String {
-    let Some(value) = value else { return "nothing".to_owned() };
-    let number = value.as_float().map(|number| number.to_string());
-    number.or_else(|| value.as_string().map(|text| format!("{text:?}"))).unwrap_or_else(|| "no number".to_owned())
+    let number = value.and_then(AttributeValue::as_float).map(|number| number.to_string());
+    let text = || value.and_then(AttributeValue::as_string).map(|text| format!("{text:?}"));
+    number.or_else(text).unwrap_or_else(|| "no value".to_owned())
 }

@@ -22,7 +22,7 @@ pub type BufferLoader<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 pub struct MeshNode {
     /// Name of the node, of its mesh or of the node above it.
     pub name: String,
-    /// Element number from the `extras` of the node or of a node above it.
+    /// Element number from the `extras` of the node or of a node above it, or from the properties or the class of a product.
     pub element: Option<u16>,
     /// Whether the node's triangles collide as they are, by its `extras`.
     pub is_surface: bool,
@@ -39,7 +39,7 @@ pub struct MeshNode {
 pub struct MeshFile {
     /// Nodes with triangles, in file order.
     pub nodes: Vec<MeshNode>,
-    /// Names of nodes that are no part of a bridge: ground, water and landing pad of an exported site.
+    /// What is no part of a bridge: names of nodes (ground, water and landing pad of an exported site), or numbers and classes of products.
     pub skipped: Vec<String>,
     /// What could not be read, one line each with the part.
     pub notes: Vec<String>,

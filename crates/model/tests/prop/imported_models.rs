@@ -290,7 +290,7 @@ fn exact_parts_without_an_element_are_listed_with_a_file_to_start_from() {
         node.as_object_mut().unwrap().remove("extras");
     }
     let nothing = ImportOptions { default_element: None, ..options() };
-    let Err(ImportError::UnknownElements { parts, elements }) = imported(text.to_string().as_bytes(), &nothing) else {
+    let Err(ImportError::UnknownElements { parts, elements, .. }) = imported(text.to_string().as_bytes(), &nothing) else {
         panic!("it was imported")
     };
     assert_eq!(parts, ["slab", "pier-1", "pier-2"]);
@@ -749,7 +749,7 @@ fn painted_spans(row: &str) -> Vec<(String, f64, f64)> {
 fn regress_the_rest_of_a_divided_part_without_an_element_is_listed() {
     let nothing = ImportOptions { default_element: None, ..options() };
     let rows = [(205, [[-20.0, -3.0, -3.0], [0.0, 3.0, 3.0]], "name = \"pier\"")];
-    let Err(ImportError::UnknownElements { parts, elements }) = import_plate(false, &boxes(&rows), &nothing) else {
+    let Err(ImportError::UnknownElements { parts, elements, .. }) = import_plate(false, &boxes(&rows), &nothing) else {
         panic!("it was imported")
     };
     assert_eq!(parts, ["mesh"]);

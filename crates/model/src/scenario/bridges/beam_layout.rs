@@ -507,8 +507,8 @@ impl BeamLayout {
         let beside_m = 0.5 * beam_m + BARRIER_WIDTH_M.0 + DRAIN_M.1 + 2.0 * DRAIN_M.0;
         let (low_m, high_m) = DECK_WIDTH_M;
         let spacing = self.lines.spacing_m;
-        m.require_at_least("girder_spacing_m", spacing, spacing_m(low_m), "a deck of at least 5 m (girders, overhang_m)");
-        m.require_at_most("girder_spacing_m", spacing, spacing_m(high_m), "a deck of at most 40 m (girders, overhang_m)");
+        m.require_at_least("girder_spacing_m", spacing, spacing_m(low_m), "a deck at least 5 m wide (girders, overhang_m)");
+        m.require_at_most("girder_spacing_m", spacing, spacing_m(high_m), "a deck at most 40 m wide (girders, overhang_m)");
         m.require_at_least("overhang_m", overhang_m, beside_m, &format!("room for barrier and drains ({key})"));
         m.require_at_most("overhang_m", overhang_m, spacing, "no wider than girder_spacing_m");
     }

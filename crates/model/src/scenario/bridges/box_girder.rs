@@ -220,7 +220,7 @@ impl BoxGirder {
             "haunch_length_m",
             self.haunch_length_m,
             steep_m,
-            "a soffit of at most 0.3 (pier_depth_m, midspan_depth_m; estimate)",
+            "a soffit slope of at most 0.3 (pier_depth_m, midspan_depth_m; estimate)",
         );
         let room_m = self.end_span_m - LEVEL_END_M;
         m.require_at_most(
@@ -265,8 +265,8 @@ impl BoxGirder {
         m.require_at_most("overhang_m", self.overhang_m, self.cell_width_m, "no wider than cell_width_m");
         let (low_m, high_m) = DECK_WIDTH_M;
         let cell_for = |deck_m: f64| (deck_m - 2.0 * self.overhang_m) / self.cells.round();
-        m.require_at_least("cell_width_m", self.cell_width_m, cell_for(low_m), "a deck of at least 5 m (cells, overhang_m)");
-        m.require_at_most("cell_width_m", self.cell_width_m, cell_for(high_m), "a deck of at most 40 m (cells, overhang_m)");
+        m.require_at_least("cell_width_m", self.cell_width_m, cell_for(low_m), "a deck at least 5 m wide (cells, overhang_m)");
+        m.require_at_most("cell_width_m", self.cell_width_m, cell_for(high_m), "a deck at most 40 m wide (cells, overhang_m)");
     }
 }
 

@@ -112,7 +112,12 @@ impl BridgeShape for CableStayed {
         );
         let first_m = self.spacing_m().0.max(self.spacing_m().1);
         let rows_m = (tower_m - slope * first_m) / (stays - 1.0);
-        m.require_at_most("anchor_spacing_m", self.anchor_spacing_m, rows_m, "steep lowest stays (stays, tower_height_m)");
+        m.require_at_most(
+            "anchor_spacing_m",
+            self.anchor_spacing_m,
+            rows_m,
+            "lowest stays that are steep enough (stays, tower_height_m)",
+        );
         let apart_m = 4.0 * self.stay_radius_m;
         m.require_at_least("anchor_spacing_m", self.anchor_spacing_m, apart_m, "four radii of a stay (stay_radius_m)");
         let panel_m = self.spacing_m().0.min(self.spacing_m().1) - 0.5;

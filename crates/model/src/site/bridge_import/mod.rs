@@ -116,6 +116,8 @@ pub enum ImportError {
         parts: Vec<String>,
         /// Text of an elements file for these parts.
         elements: String,
+        /// What could not be read from the file, one line each with the part.
+        notes: Vec<String>,
     },
 }
 
@@ -141,14 +143,14 @@ pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<Imported
     unique_names(nodes.iter_mut().map(|node| &mut node.name));
     let known = elements(&nodes, source, options);
     if !source.elements.has_boxes() {
-        check_known(nodes.iter().zip(&known).map(|(node, element)| (node.name.as_str(), *element)))?;
+        check_known(nodes.iter().zip(&known).map(|(node, element)| (node.name.as_str(), *element)), &notes)?;
     }
     check_size(source.file, nodes.iter().flat_map(|node| node.mesh.vertices_m.iter().copied()))?;
     let moved = move_near_origin(&mut nodes);
     let fixed = fixed_origin(&nodes, &known, moved, source, options);
     let mut painted = painting::paint(nodes, &known, &source.elements, fixed.unwrap_or_default());
     unique_names(painted.parts.iter_mut().map(|part| &mut part.node.name));
-    check_known(painted.parts.iter().map(|part| (part.node.name.as_str(), part.element)))?;
+    check_known(painted.parts.iter().map(|part| (part.node.name.as_str(), part.element)), &notes)?;
     check_reach(source.file, &painted.parts, fixed)?;
     let mut names: BTreeSet<String> = painted.parts.iter().map(|part| lower_case(&part.node.name).collect()).collect();
     let mut rows = Vec::new();
@@ -260,14 +262,14 @@ fn elements(nodes: &[MeshNode], source: &ImportSource, options: &ImportOptions) 
     nodes.iter().map(element).collect()
 }
 
-/// Checks that each part has an element.
-fn check_known<'a>(parts: impl Iterator<Item = (&'a str, Option<Element>)>) -> Result<(), ImportError> {
+/// Checks that each part has an element. `notes` are those on the file.
+fn check_known<'a>(parts: impl Iterator<Item = (&'a str, Option<Element>)>, notes: &[String]) -> Result<(), ImportError> {
     let parts: Vec<String> = parts.filter(|(_, element)| element.is_none()).map(|(name, _)| name.to_owned()).collect();
     if parts.is_empty() {
         return Ok(());
     }
     let elements = element_suggestions::elements_toml(&parts);
-    Err(ImportError::UnknownElements { parts, elements })
+    Err(ImportError::UnknownElements { parts, elements, notes: notes.to_vec() })
 }
 
 /// Returns the nodes of a file in meters, with z up and x along the deck. A point cloud becomes a node that is named `cloud`.
