@@ -142,8 +142,8 @@ mod tests {
     fn exact_numbers_and_keys_stay() {
         let german = |english: &str| allowed_dimension(Language::German, english);
         assert_eq!(
-            german("room for all stringers (stringers, deck_width_m): at most 0.42").as_deref(),
-            Some("Platz für alle Längsträger (stringers, deck_width_m): höchstens 0.42")
+            german("room for the bearings (joint_gap_m): at least 0.42").as_deref(),
+            Some("Platz für die Lager (joint_gap_m): mindestens 0.42")
         );
         assert_eq!(
             german("0.25 main_span_m (estimate): at least 40.00").as_deref(),
