@@ -58,6 +58,19 @@ def spandrel_import(*args):
     return subprocess.run([spandrel.PROGRAM, "import", *map(str, args)], capture_output=True, text=True, timeout=300, check=False)
 
 
+def convex_parts(model):
+    """Returns the parts of an imported bridge by the names of their members. Asserts that each is closed and convex."""
+    scene = trimesh.load(model, force="scene")
+    found = {}
+    for name in scene.graph.nodes_geometry:
+        transform, geometry = scene.graph[name]
+        part = scene.geometry[geometry].copy().apply_transform(transform)
+        part.merge_vertices()
+        assert part.is_watertight and part.is_convex, name
+        found.setdefault(name.split("/")[0], []).append(part)
+    return found
+
+
 def import_with_suggested_elements(model, out, parts):
     """Imports a model without elements: first without success, then with the elements file that this prints."""
     refused = spandrel_import(model, "--out", out, "--up", "z")
