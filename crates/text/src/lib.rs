@@ -29,7 +29,7 @@ pub use language::Language;
 pub use message_id::MessageId;
 pub use messages::check_message;
 pub use picture_reasons::PICTURE_REASONS;
-pub use sentences::{Sentence, SentenceTable};
+pub use sentences::{MARK, Sentence, SentenceTable};
 pub use translated::Translated;
 
 /// Returns a message in a language: `text!(language, "id", variable = value)`. A wrong name is a compile error.

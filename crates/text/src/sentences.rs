@@ -4,7 +4,7 @@
 use crate::language::Language;
 
 /// Stands for a value in a pattern. Texts do not contain it.
-pub(crate) const MARK: &str = "\u{0}";
+pub const MARK: &str = "\u{0}";
 
 /// Composes a sentence with its values, which are in the order in which the English sentence shows them.
 type Compose = fn(Language, &[&str]) -> String;

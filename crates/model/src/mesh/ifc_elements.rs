@@ -34,7 +34,7 @@ pub(super) enum Location {
     Pier,
 }
 
-/// What determines the element of a product.
+/// Properties of a product that decide its element.
 #[derive(Debug, Clone)]
 pub(super) struct Traits {
     /// Class of the product.
@@ -57,6 +57,8 @@ struct Rule {
     kinds: &'static [&'static str],
     /// Required part of the bridge; `None` for any.
     location: Option<Location>,
+    /// Whether the row requires girders in the file.
+    needs_girders: bool,
     element: Choice,
 }
 
@@ -111,7 +113,7 @@ static RULES: [Rule; 23] = [
     rule(IfcType::IfcWall, &[], Some(Location::Pier), PIER_WALLS),
     rule(IfcType::IfcSlab, &["APPROACH_SLAB"], None, APPROACH_SLABS),
     rule(IfcType::IfcSlab, &["WEARING"], None, Fixed(Element::WearingSurface)),
-    rule(IfcType::IfcSlab, &["FLOOR", "USERDEFINED", "-"], Some(Location::Deck), DECKS),
+    rule(IfcType::IfcSlab, &["FLOOR", "USERDEFINED", "-"], Some(Location::Deck), DECKS).on_girders(),
     rule(IfcType::IfcCourse, &["PAVEMENT"], Some(Location::Deck), Fixed(Element::WearingSurface)),
     rule(IfcType::IfcPavement, &[], Some(Location::Deck), Fixed(Element::WearingSurface)),
     rule(IfcType::IfcColumn, &["COLUMN", "STANDCOLUMN", "-"], None, COLUMNS),
@@ -126,7 +128,15 @@ static RULES: [Rule; 23] = [
 ];
 
 const fn rule(class: IfcType, kinds: &'static [&'static str], location: Option<Location>, element: Choice) -> Rule {
-    Rule { class, kinds, location, element }
+    Rule { class, kinds, location, needs_girders: false, element }
+}
+
+impl Rule {
+    /// Returns the row for files with girders.
+    const fn on_girders(mut self) -> Self {
+        self.needs_girders = true;
+        self
+    }
 }
 
 /// Returns the element of a product; `None` if there is a doubt.
@@ -136,13 +146,9 @@ pub(super) fn element_of(traits: &Traits) -> Option<Element> {
         traits.class.is_subtype_of(rule.class.clone())
             && (rule.kinds.is_empty() || rule.kinds.contains(&kind))
             && (rule.location.is_none() || rule.location == traits.location)
+            && (traits.has_girders || !rule.needs_girders)
     };
-    let rule = RULES.iter().find(fits)?;
-    let is_deck_slab = rule.class == IfcType::IfcSlab && rule.location == Some(Location::Deck);
-    if is_deck_slab && !traits.has_girders {
-        return None;
-    }
-    match rule.element {
+    match RULES.iter().find(fits)?.element {
         Fixed(element) => Some(element),
         ByMaterial(list) => {
             let by = |material: Material| list.iter().find(|(own, _)| *own == material).map(|(_, element)| *element);

@@ -89,8 +89,6 @@ struct Place {
     id: u32,
     start: usize,
     end: usize,
-    /// Whether it is a beam or a bar of a truss or an arch, on which a deck rests.
-    is_girder: bool,
 }
 
 fn decode(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
@@ -101,8 +99,10 @@ fn decode(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
     let openings = void_index_from_content(bytes, &mut decoder);
     let mut reader = ProductReader { file, bytes, decoder, router, relations, triangles: 0, skipped: BTreeMap::new() };
     let mut content = MeshFile::default();
-    reader.relations.has_girders = products.iter().any(|place| place.is_girder);
     for (k, place) in products.iter().enumerate() {
+        if reader.decoder.cache_size() > MAX_CACHED_ENTITIES {
+            reader.decoder.clear_entity_cache();
+        }
         let entity = reader.decoder.decode_at_with_id(place.id, place.start, place.end);
         let entity = entity.map_err(|error| format!("{}: {error}", reader.at(*place)))?;
         let name = product_name(&entity, k);
@@ -110,20 +110,14 @@ fn decode(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
             continue;
         }
         let label = format!("#{} {} {name}", place.id, entity.ifc_type.name());
-        let cut = openings.get(&place.id).map_or(0, Vec::len);
-        let (mesh, notes) = reader.mesh(&entity, &openings, cut);
+        let (mesh, notes) = reader.mesh(&entity, &openings);
         content.notes.extend(notes.into_iter().map(|note| format!("{label}: {note}")));
         let mesh = mesh.map_err(|words| format!("{file}:{}: {label}: {words}", line(bytes, place.start)))?;
         if mesh.triangles.is_empty() {
             continue;
         }
-        let element = reader.element(&entity).unwrap_or_else(|words| {
-            content.notes.push(format!("{label}: {words}"));
-            None
-        });
-        if reader.decoder.cache_size() > MAX_CACHED_ENTITIES {
-            reader.decoder.clear_entity_cache();
-        }
+        let element = reader.element(&entity);
+        content.notes.extend(reader.relations.take_problems().map(|words| format!("{label}: {words}")));
         content.nodes.push(MeshNode { name, element, is_surface: false, mesh, colors: Vec::new(), ignored_primitives: 0 });
         if content.nodes.len() > MAX_NODES {
             return Err(format!("{file}: more than {MAX_NODES} products with a body"));
@@ -147,8 +141,9 @@ fn scan(file: &str, bytes: &[u8], decoder: &mut EntityDecoder, relations: &mut R
             if !ids.insert(id) {
                 return Err(format!("{file}:{}: #{id}: occurs twice (allowed: once)", line(bytes, start)));
             }
-            products.push(Place { id, start, end, is_girder: GIRDERS.contains(&class) });
-        } else if relations.takes(class) {
+            products.push(Place { id, start, end });
+            relations.has_girders |= GIRDERS.contains(&class);
+        } else if Relations::takes(class) {
             let entity = decoder.decode_at_uncached(start, end);
             let entity = entity.map_err(|error| format!("{file}:{}: #{id}: {error}", line(bytes, start)))?;
             relations.add(&entity);
@@ -223,7 +218,7 @@ impl ProductReader<'_> {
     }
 
     /// Returns the triangles of a product, and notes on what the library could not convert.
-    fn mesh(&mut self, entity: &DecodedEntity, openings: &Openings, cut: usize) -> (Result<Mesh, String>, Vec<String>) {
+    fn mesh(&mut self, entity: &DecodedEntity, openings: &Openings) -> (Result<Mesh, String>, Vec<String>) {
         let Self { router, decoder, .. } = self;
         // A panic leaves only caches behind, which the library fills again.
         let parts = catch_unwind(AssertUnwindSafe(|| router.process_element_with_voids_parts(entity, decoder, openings)));
@@ -234,6 +229,7 @@ impl ProductReader<'_> {
         }
         let failed: usize = self.router.take_csg_failures().values().map(Vec::len).sum();
         if failed > 0 {
+            let cut = openings.get(&entity.id).map_or(0, Vec::len);
             let plural = if failed == 1 { "" } else { "s" };
             notes.push(format!("{failed} cut{plural} failed (openings: {cut}): compare the part with the model"));
         }
@@ -266,9 +262,9 @@ impl ProductReader<'_> {
     }
 
     /// Returns the element of a product: by its property, or by its class.
-    fn element(&mut self, entity: &DecodedEntity) -> Result<Option<u16>, String> {
-        let tagged = self.relations.tag(entity.id, &mut self.decoder)?;
-        Ok(tagged.or_else(|| element_of(&self.relations.traits(entity, &mut self.decoder)).map(|element| element.number())))
+    fn element(&mut self, entity: &DecodedEntity) -> Option<u16> {
+        let tagged = self.relations.tag(entity.id, &mut self.decoder);
+        tagged.or_else(|| element_of(&self.relations.traits(entity, &mut self.decoder)).map(|element| element.number()))
     }
 }
 
@@ -489,6 +485,17 @@ mod tests {
         let content = content(&(column + tag));
         assert_eq!((content.nodes.len(), content.nodes[0].element), (1, None));
         assert_eq!(content.notes, ["#20 IfcColumn a: property #60: element = \"Wall-03\" (allowed: 1 to 999)"]);
+    }
+
+    #[test]
+    fn regress_a_property_of_another_program_is_noted_once_and_the_class_determines_the_elements() {
+        let columns = [20, 40].map(|id| BoxProduct::new(id, COLUMN, "$", [0.0; 3], [1.0; 3]).text()).concat();
+        let relations = "#60=IFCPROPERTYSINGLEVALUE('element',$,IFCLABEL('Wall-03'),$);\n#61=IFCPROPERTYSET('s',$,'Other',$,(#60));\n\
+             #62=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#20,#40),#61);\n#63=IFCMATERIAL('C30/37',$,$);\n\
+             #64=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#20,#40),#63);\n";
+        let content = content(&(columns + relations));
+        assert_eq!(content.nodes.iter().map(|node| node.element).collect::<Vec<_>>(), [Some(205); 2]);
+        assert_eq!(content.notes.len(), 1, "{:?}", content.notes);
     }
 
     #[test]

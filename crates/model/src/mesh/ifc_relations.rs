@@ -23,7 +23,7 @@ const MAX_MATERIALS: usize = 1000;
 /// The relations that determine the elements of products.
 #[derive(Debug, Default)]
 pub(super) struct Relations {
-    /// Whether the file has girders.
+    /// Whether the file has girders, on which a deck rests.
     pub(super) has_girders: bool,
     /// The assembly of a part.
     assemblies: BTreeMap<u32, u32>,
@@ -39,11 +39,13 @@ pub(super) struct Relations {
     tags: BTreeMap<u32, Option<u16>>,
     /// Materials that were found before, by the entity that a product refers to.
     found_materials: BTreeMap<u32, Option<Material>>,
+    /// Properties without an element number that were found and not yet taken.
+    problems: Vec<String>,
 }
 
 impl Relations {
     /// Returns whether a class of entities, in capitals, is a relation that is needed.
-    pub(super) fn takes(&self, class: &str) -> bool {
+    pub(super) fn takes(class: &str) -> bool {
         matches!(
             IfcType::from_str(class),
             IfcType::IfcRelAggregates
@@ -90,38 +92,36 @@ impl Relations {
         chain
     }
 
+    /// Takes the problems of the properties that were read since the last call: the entity and the value.
+    pub(super) fn take_problems(&mut self) -> impl Iterator<Item = String> + use<> {
+        std::mem::take(&mut self.problems).into_iter()
+    }
+
     /// Returns the element number in the properties of a product, of its type, or of an assembly or structure around it.
-    ///
-    /// # Errors
-    /// Returns the entity and the value if it is no element number.
-    pub(super) fn tag(&mut self, id: u32, decoder: &mut EntityDecoder) -> Result<Option<u16>, String> {
-        for ancestor in self.ancestors(id) {
+    pub(super) fn tag(&mut self, id: u32, decoder: &mut EntityDecoder) -> Option<u16> {
+        self.ancestors(id).into_iter().find_map(|ancestor| {
             let known = self.tags.get(&ancestor).copied();
-            let tag = known.map_or_else(|| self.own_tag(ancestor, decoder), Ok)?;
+            let tag = known.unwrap_or_else(|| self.own_tag(ancestor, decoder));
             self.tags.insert(ancestor, tag);
-            if tag.is_some() {
-                return Ok(tag);
-            }
-        }
-        Ok(None)
+            tag
+        })
     }
 
     /// Returns the element number in the properties of an entity, or of its type.
-    fn own_tag(&mut self, id: u32, decoder: &mut EntityDecoder) -> Result<Option<u16>, String> {
+    fn own_tag(&mut self, id: u32, decoder: &mut EntityDecoder) -> Option<u16> {
         let indices = self.property_sets.get(&id).into_iter().flatten();
         let mut sets: Vec<u32> = indices.filter_map(|index| self.shared_sets.get(*index)).flatten().copied().collect();
         if let Some(kind) = self.types.get(&id).and_then(|kind| decoder.decode_by_id(*kind).ok()) {
             sets.extend(kind.get_refs(TYPE_PROPERTY_SETS).unwrap_or_default());
         }
-        for set in sets {
-            let known = self.tags_of_sets.get(&set).copied();
-            let tag = known.map_or_else(|| tag_in(set, decoder), Ok)?;
-            self.tags_of_sets.insert(set, tag);
-            if tag.is_some() {
-                return Ok(tag);
-            }
-        }
-        Ok(None)
+        let Self { tags_of_sets, problems, .. } = self;
+        let mut read = |set: u32| {
+            tag_in(set, decoder).unwrap_or_else(|words| {
+                problems.push(words);
+                None
+            })
+        };
+        sets.into_iter().find_map(|set| *tags_of_sets.entry(set).or_insert_with(|| read(set)))
     }
 
     /// Returns what determines the element of a product without a number of its own.

@@ -39,9 +39,10 @@ pub struct MeshNode {
 pub struct MeshFile {
     /// Nodes with triangles, in file order.
     pub nodes: Vec<MeshNode>,
-    /// What is no part of a bridge: names of nodes (ground, water and landing pad of an exported site), or numbers and classes of products.
+    /// Left out because they are not part of a bridge: names of nodes (ground, water and landing pad of an exported site), or how many
+    /// products of which class.
     pub skipped: Vec<String>,
-    /// What could not be read, one line each with the part.
+    /// Problems with single parts, one line per problem.
     pub notes: Vec<String>,
     /// Points without triangles; a file with them has no nodes.
     pub cloud: Option<PointCloud>,

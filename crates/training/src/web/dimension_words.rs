@@ -1,7 +1,7 @@
 //! Why a dimension of a bridge must have certain values, given its other dimensions, in the language of a page. Keys, numbers and
 //! numbers of standards stay as they are.
 
-use spandrel_text::{Language, Sentence, SentenceTable, text};
+use spandrel_text::{Language, MARK, Sentence, SentenceTable, text};
 use std::sync::LazyLock;
 
 /// Reasons. Those with more words come first.
@@ -82,7 +82,7 @@ static BOUNDS: LazyLock<SentenceTable> = LazyLock::new(|| {
 
 /// Returns whether a text consists of keys, numbers, divisions, and the mark in patterns.
 fn is_formula(text: &str) -> bool {
-    let is_key = |word: &str| word.contains('_') || word == "\u{0}";
+    let is_key = |word: &str| word.contains('_') || word == MARK;
     text.split(' ').all(|word| is_key(word) || word == "/" || word.parse::<f64>().is_ok())
 }
 

@@ -116,7 +116,7 @@ pub enum ImportError {
         parts: Vec<String>,
         /// Text of an elements file for these parts.
         elements: String,
-        /// What could not be read from the file, one line each with the part.
+        /// Problems with single parts of the file, one line per problem.
         notes: Vec<String>,
     },
 }

@@ -55,7 +55,7 @@ pub struct ImportReport {
     pub lost_parts: usize,
     /// Names of nodes that are no part of a bridge.
     pub skipped: Vec<String>,
-    /// What could not be read from the file, one line each with the part.
+    /// Problems with single parts of the file, one line per problem.
     pub notes: Vec<String>,
     /// Counts of a converted point cloud; `None` for meshes.
     pub cloud: Option<CloudReport>,
