@@ -2,12 +2,12 @@
 
 use super::args;
 use crate::errors::{AppError, EXIT_CODES};
+use crate::io::briefing_page::briefing_page;
 use crate::io::files;
 use spandrel_model::site::Site;
 use spandrel_monitor::export::json_text;
 use spandrel_text::Language;
 use spandrel_training::briefing::{Briefing, text};
-use spandrel_training::report::page;
 
 /// Print the briefing for a job
 ///
@@ -43,14 +43,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let source = args.job.load_scenario()?;
     let scenario = &source.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
-    let site = Site::without_defects(scenario);
-    let briefing = |language| Briefing::new(scenario, &vehicle, &site, language);
+    let briefing = |language| Briefing::new(scenario, &vehicle, &Site::without_defects(scenario), language);
     let language = args.page.language();
     match (&args.html, args.json) {
-        (Some(file), _) => {
-            let pictures: Vec<Option<String>> = source.load_pictures()?.iter().map(|picture| Some(picture.data_uri())).collect();
-            files::write(file, page::briefing(&briefing(language), (scenario, &site), &pictures, language).as_bytes())
-        }
+        (Some(file), _) => files::write(file, briefing_page(&source, &vehicle, language)?.as_bytes()),
         // Programs read the JSON, so it is always in English.
         (None, true) => files::write("-", json_text(&briefing(Language::English)).as_bytes()),
         (None, false) => files::write("-", text::render(&briefing(language), language).as_bytes()),

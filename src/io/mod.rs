@@ -6,6 +6,7 @@ pub mod answers;
 pub mod append_file;
 pub mod autopilot;
 pub mod autopilot_sockets;
+pub mod briefing_page;
 pub mod children;
 pub mod clock;
 pub mod controller;

@@ -131,25 +131,24 @@ impl Authenticator {
         let open = self.has_no_passwords(database)?;
         let now_us = clock::unix_us();
         let found = cookie.and_then(|cookie| lock(&self.browser_sessions).find(&cookie, now_us).map(|visit| (cookie, visit)));
-        // This check runs for every request, so a role change, an erasure or a new password ends the browser session
-        // immediately, even if another server or the command line made the change.
-        let account = found.as_ref().and_then(|(_, visit)| visit.name.as_deref());
-        let account = account.map(|name| database.account(name)).transpose()?.flatten();
-        let over =
-            |visit: &BrowserSession| visit.name.is_some() && visit.credential != account.as_ref().and_then(Account::credential);
-        let found = match found {
-            Some((cookie, visit)) if over(&visit) => {
-                lock(&self.browser_sessions).end(&cookie);
-                None
+        if let Some((cookie, visit)) = found {
+            if let Some(visitor) = valid_visitor(database, open, visit)? {
+                return Ok(IdentifiedVisitor { visitor, cookie, is_new: false });
             }
-            found => found,
-        };
-        let Some((cookie, visit)) = found else {
-            let (cookie, visit) = lock(&self.browser_sessions).begin(None, secrets()?, now_us);
-            return Ok(IdentifiedVisitor { visitor: visitor(open, None, visit), cookie, is_new: true });
-        };
-        let person = account.map(|account| account.person);
-        Ok(IdentifiedVisitor { visitor: visitor(open, person, visit), cookie, is_new: false })
+            lock(&self.browser_sessions).end(&cookie);
+        }
+        let (cookie, visit) = lock(&self.browser_sessions).begin(None, secrets()?, now_us);
+        Ok(IdentifiedVisitor { visitor: visitor(open, None, visit), cookie, is_new: true })
+    }
+
+    /// Identifies the visitor whose page received this key for a file; `None` if there is none or their login has ended.
+    ///
+    /// # Errors
+    /// Returns an error if the database fails.
+    pub fn identify_by_file_key(&self, database: &Database, file: &str, key: &str) -> Result<Option<Visitor>, WebError> {
+        let open = self.has_no_passwords(database)?;
+        let found = lock(&self.browser_sessions).find_by_file_key(file, key, clock::unix_us());
+        found.map_or(Ok(None), |visit| valid_visitor(database, open, visit))
     }
 
     /// Logs in: checks the name and password, ends the previous browser session and starts a new one. Returns the new
@@ -283,6 +282,16 @@ pub fn cookie_value(headers: &HeaderMap, name: &str) -> Option<String> {
 
 fn wrong_credentials(language: Language) -> WebError {
     WebError::Forbidden(text!(language, "web-error-credentials"))
+}
+
+/// Returns the visitor of a browser session; `None` if their account has changed since the login. Every request is checked, so a role
+/// change, an erasure or a new password ends the session immediately, even if another server or the command line made the change.
+fn valid_visitor(database: &Database, open: bool, visit: BrowserSession) -> Result<Option<Visitor>, WebError> {
+    let account = visit.name.as_deref().map(|name| database.account(name)).transpose()?.flatten();
+    if visit.name.is_some() && visit.credential != account.as_ref().and_then(Account::credential) {
+        return Ok(None);
+    }
+    Ok(Some(visitor(open, account.map(|account| account.person), visit)))
 }
 
 fn visitor(open: bool, person: Option<Trainee>, visit: BrowserSession) -> Visitor {

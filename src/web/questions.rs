@@ -11,7 +11,9 @@ use crate::io::session_folder::StoredSession;
 use serde_json::json;
 use spandrel_model::scenario::Scenario;
 use spandrel_monitor::export::json_text;
+use spandrel_text::Language;
 use spandrel_training::questionnaire::{ANSWERS, Answers, QuestionnaireItem, Wording};
+use spandrel_training::terms::task_title;
 use spandrel_training::web::questionnaire_form;
 
 /// Responds with a session's questionnaire.
@@ -25,7 +27,7 @@ fn render_form(state: &ServerState, request: &WebRequest, saved: bool) -> Handle
     let scenario = StoredSession::read_scenario(&folder)?.scenario;
     let answers = read_saved_answers(&folder, &scenario)?.unwrap_or_default();
     let wording = language(state, request, &answers)?;
-    let tasks = task_names(&scenario);
+    let tasks = task_names(&scenario, wording);
     let languages = state.languages.all();
     let about = questionnaire_form::FormContext { id, tasks: &tasks, wording, languages, answers: &answers, saved };
     Ok(WebResponse::page(questionnaire_form::page(&request.visitor, &about)))
@@ -48,8 +50,10 @@ fn language_tags(state: &ServerState) -> String {
     state.languages.all().iter().map(|wording| wording.language.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-fn task_names(scenario: &Scenario) -> Vec<(u32, String)> {
-    scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect()
+/// Returns the tasks with their titles in the language of a wording; their own names if the product is not in it.
+fn task_names(scenario: &Scenario, wording: &Wording) -> Vec<(u32, String)> {
+    let language = Language::from_tag(&wording.language).unwrap_or_default();
+    scenario.tasks.iter().map(|task| (task.id, task_title(&scenario.name, &task.name, language))).collect()
 }
 
 /// Saves the answers from a submitted form.

@@ -10,6 +10,9 @@ use spandrel_text::{Language, text};
 const PAGE_POLICY: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; media-src 'self'; connect-src 'self'; \
     form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
 
+/// Header that says which sites' pages may load a response.
+const RESOURCE_POLICY: HeaderName = HeaderName::from_static("cross-origin-resource-policy");
+
 /// A handler's HTTP response.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WebResponse {
@@ -22,6 +25,7 @@ pub struct WebResponse {
     retry_after_s: Option<u64>,
     content_range: Option<String>,
     accepts_ranges: bool,
+    resource_policy: &'static str,
     /// Complete values of Set-Cookie headers.
     pub cookies: Vec<String>,
     body: Vec<u8>,
@@ -64,6 +68,7 @@ impl WebResponse {
             retry_after_s: None,
             content_range: None,
             accepts_ranges: false,
+            resource_policy: "same-origin",
             cookies: Vec::new(),
             body,
         }
@@ -116,6 +121,11 @@ impl WebResponse {
         let last = (from + bytes.len() as u64).saturating_sub(1);
         let part = Self { content_range: Some(format!("bytes {from}-{last}/{len}")), ..Self::seekable(kind, bytes) };
         part.with_status(StatusCode::PARTIAL_CONTENT)
+    }
+
+    /// Lets sandboxed pages load the response; to the browser, they are another site.
+    pub fn for_sandboxed_page(self) -> Self {
+        Self { resource_policy: "cross-origin", ..self }
     }
 
     /// Responds that the requested part is outside the file of `len` bytes.
@@ -176,6 +186,7 @@ impl WebResponse {
         set(header::CONTENT_TYPE, self.kind);
         set(header::CONTENT_SECURITY_POLICY, &self.policy);
         set(header::CACHE_CONTROL, if self.cacheable { "public, max-age=31536000, immutable" } else { "no-store" });
+        set(RESOURCE_POLICY, self.resource_policy);
         if let Some(location) = &self.location {
             set(header::LOCATION, location);
         }
@@ -205,11 +216,11 @@ pub fn set_security_headers(headers: &mut axum::http::HeaderMap, secure: bool) {
     set(header::X_FRAME_OPTIONS, "DENY");
     set(header::REFERRER_POLICY, "same-origin");
     set(HeaderName::from_static("cross-origin-opener-policy"), "same-origin");
-    set(HeaderName::from_static("cross-origin-resource-policy"), "same-origin");
     set(HeaderName::from_static("permissions-policy"), "camera=(), microphone=(), geolocation=()");
     if secure {
         set(header::STRICT_TRANSPORT_SECURITY, "max-age=31536000");
     }
+    headers.entry(RESOURCE_POLICY).or_insert(HeaderValue::from_static("same-origin"));
     headers.entry(header::CONTENT_SECURITY_POLICY).or_insert(HeaderValue::from_static(PAGE_POLICY));
 }
 

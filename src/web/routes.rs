@@ -24,7 +24,7 @@ pub const MAX_RECORDING_BYTES: usize = 96 * 1024 * 1024;
 /// What a route does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RouteKind {
-    /// A static asset, the same for every visitor.
+    /// A file that doesn't depend on who sent the request: a static asset, or a file whose address contains a key.
     File,
     /// A page or download that changes nothing.
     Show,
@@ -61,6 +61,10 @@ pub struct Route {
     pub handler: Handler,
 }
 
+const fn file(path: &'static str, handler: Handler) -> Route {
+    Route { path, kind: RouteKind::File, required_access: AccessLevel::Public, handler }
+}
+
 const fn show(path: &'static str, required_access: AccessLevel, handler: Handler) -> Route {
     Route { path, kind: RouteKind::Show, required_access, handler }
 }
@@ -87,7 +91,7 @@ pub const STREAM_PATH: &str = "/live/stream";
 /// All routes except the stream. Handlers for a trainee's data also check whether the visitor may access that trainee.
 pub const ROUTES: &[Route] = &[
     show("/", AccessLevel::Public, sessions::start),
-    Route { path: "/assets/{name}", kind: RouteKind::File, required_access: AccessLevel::Public, handler: assets::file },
+    file("/assets/{name}", assets::file),
     show("/login", AccessLevel::Public, settings::login_page),
     change("/login", AccessLevel::Public, settings::log_in),
     change("/logout", AccessLevel::Public, settings::log_out),
@@ -97,6 +101,7 @@ pub const ROUTES: &[Route] = &[
     show("/sessions", AccessLevel::Login, sessions::session_list),
     show("/sessions/{id}", AccessLevel::Login, sessions::session_page),
     show("/sessions/{id}/report", AccessLevel::Login, sessions::report),
+    file("/sessions/{id}/report/{key}/video.mp4", session_media::report_video),
     show("/sessions/{id}/frames.csv", AccessLevel::Login, sessions::frames),
     show("/sessions/{id}/telemetry.tlog", AccessLevel::Login, sessions::telemetry),
     show("/sessions/{id}/video.mp4", AccessLevel::Login, session_media::video),
@@ -179,10 +184,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_anonymous_visitors_reach_only_the_login_page_the_languages_and_map_tiles() {
+    fn exact_anonymous_visitors_reach_only_public_pages_and_what_has_its_own_key() {
         let open: Vec<&str> =
             ROUTES.iter().filter(|route| route.required_access == AccessLevel::Public).map(|route| route.path).collect();
-        // Ground stations cannot log in, and map tiles show no defects. Training stations send their key.
+        // Ground stations cannot log in, and map tiles show no defects. Training stations and reports with a video send a key.
         assert_eq!(
             open,
             [
@@ -192,6 +197,7 @@ mod tests {
                 "/login",
                 "/logout",
                 "/language",
+                "/sessions/{id}/report/{key}/video.mp4",
                 "/tiles/{name}/{z}/{x}/{y}",
                 "/tiles/{name}/WMTSCapabilities.xml",
                 "/stations/check-in",

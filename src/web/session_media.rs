@@ -6,6 +6,8 @@ use super::sessions::folder;
 use super::state::ServerState;
 use crate::io::report::photograph_path;
 use spandrel_monitor::folder::{SNAPSHOTS, VIDEO};
+use spandrel_training::web::access::Visitor;
+use spandrel_training::web::browser_sessions::file_key;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
@@ -15,17 +17,34 @@ const MAX_PART_BYTES: u64 = 2 * 1024 * 1024;
 
 /// Responds with a session's video, or the requested part of it.
 pub fn video(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let path = folder(state, request, request.path_param("id"))?.join(VIDEO);
-    let (mut file, len) = open(&path)?;
+    video_part(&folder(state, request, request.path_param("id"))?.join(VIDEO), request)
+}
+
+/// Returns the address of a session's video for its report, which is sandboxed and therefore cannot send the visitor's cookie.
+pub fn report_video_address(visitor: &Visitor, id: &str) -> String {
+    format!("/sessions/{id}/report/{}/{VIDEO}", file_key(&visitor.token, id))
+}
+
+/// Responds with a session's video to the report of a visitor who may see the session.
+pub fn report_video(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let (id, key) = (request.path_param("id"), request.path_param("key"));
+    let viewer = state.auth.identify_by_file_key(&state.database, id, key)?.ok_or(WebError::NotFound)?;
+    let record = state.database.record(id)?.filter(|record| viewer.may_see(&record.trainee)).ok_or(WebError::NotFound)?;
+    let folder = state.folder(&record.id).ok_or(WebError::NotFound)?;
+    Ok(video_part(&folder.join(VIDEO), request)?.for_sandboxed_page())
+}
+
+fn video_part(path: &Path, request: &WebRequest) -> HandlerResult {
+    let (mut file, len) = open(path)?;
     let Some(range) = request.range.as_deref().and_then(requested) else {
         let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).map_err(|error| unreadable(&path, &error))?;
+        file.read_to_end(&mut bytes).map_err(|error| unreadable(path, &error))?;
         return Ok(WebResponse::seekable("video/mp4", bytes));
     };
     let Some((from, count)) = part(range, len) else { return Ok(WebResponse::range_not_satisfiable(len)) };
     let mut bytes = Vec::new();
     let read = file.seek(SeekFrom::Start(from)).and_then(|_| file.take(count).read_to_end(&mut bytes));
-    read.map_err(|error| unreadable(&path, &error))?;
+    read.map_err(|error| unreadable(path, &error))?;
     Ok(WebResponse::partial("video/mp4", bytes, from, len))
 }
 

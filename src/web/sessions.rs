@@ -2,6 +2,7 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
+use super::session_media::report_video_address;
 use super::state::ServerState;
 use crate::io::marks::valid_marks;
 use crate::io::report;
@@ -16,7 +17,7 @@ use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
 use spandrel_training::report::page::MARKS_META_NAME;
 use spandrel_training::standing::standing;
-use spandrel_training::web::back_links::{ParentPage, with_back_links};
+use spandrel_training::web::served_report::{ParentPage, with_back_links, with_video_address};
 use spandrel_training::web::sessions as pages;
 use std::path::{Path, PathBuf};
 
@@ -111,6 +112,7 @@ pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
         }
     };
     let page = if written_language == language { page } else { translated_report(state, &folder, language, is_current)? };
+    let page = with_video_address(page, &report_video_address(&request.visitor, id));
     let served = with_back_links(page, &[ParentPage::Session(id), ParentPage::Sessions], language);
     Ok(WebResponse::sandboxed_page(served, &policy))
 }

@@ -17,8 +17,8 @@ use spandrel_training::plan::plan_for_policy;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::{assets, page::cohort as report};
 use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role};
-use spandrel_training::web::back_links::{ParentPage, with_back_links};
 use spandrel_training::web::rubric::count_words;
+use spandrel_training::web::served_report::{ParentPage, with_back_links};
 use spandrel_training::web::{cohort_page, trainees as pages};
 use std::collections::BTreeMap;
 

@@ -96,6 +96,30 @@ def test_regress_session_page_shows_video_and_photographs(browser, server, sessi
     expect(page.locator("#picture-1")).to_be_visible()
 
 
+@pytest.mark.timeout(900)
+def test_regress_served_report_plays_its_video_until_logout(browser, server, session):
+    """The sandboxed report sends no cookie; its own address of the video ends with the login that it was made for."""
+    anna = BrowserUser(browser, server, "anna")
+    page = anna.page
+    expect(page.get_by_role("heading", name="Sessions")).to_be_visible()
+    page.goto(server.address + f"/sessions/{session.name}/report")
+    spandrel.wait_for("the video", lambda: video(page, "readyState") >= 1)
+    assert page.locator("#video-missing").is_hidden()
+    set_slider(page, 0)
+    video(page, "play()")
+    spandrel.wait_for("the video to move the slider", lambda: slider_s(page) > 0)
+    assert not anna.wrong, anna.wrong
+    address = page.get_attribute("#video", "src")
+    stranger = webserver.Browser(server.address)
+    assert stranger.ask(address)[0] == 200
+    wrong = address[:-len("/video.mp4") - 1] + "x/video.mp4"
+    assert stranger.ask(wrong)[0] == 404
+    anna.go("/sessions")
+    page.click("text=Log out")
+    expect(page.get_by_label("Password")).to_be_visible()
+    assert stranger.ask(address)[0] == 404
+
+
 def test_wire_video_is_sent_in_parts_and_only_to_its_trainee(server, session):
     path, size = f"/sessions/{session.name}/video.mp4", (session / "video.mp4").stat().st_size
     anna, ben = webserver.Browser(server.address), webserver.Browser(server.address)

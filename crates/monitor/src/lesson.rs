@@ -41,6 +41,8 @@ pub struct LessonInput<'a> {
     pub home_radius_m: f64,
     /// Whether the motors are armed.
     pub armed: bool,
+    /// Whether the drone flies home or lands by itself, so that the trainee does none of the steps before.
+    pub is_return: bool,
     /// Whether the drone is on the ground.
     pub on_ground: bool,
     /// Pitch of the camera, rad, up positive.
@@ -126,10 +128,11 @@ impl LessonCoach {
             self.last_heading_rad = input.heading_rad;
             input.time
         });
-        self.state.turned_rad += math::wrap_pi(input.heading_rad - self.last_heading_rad);
-        self.last_heading_rad = input.heading_rad;
+        let turned_rad = math::wrap_pi(input.heading_rad - std::mem::replace(&mut self.last_heading_rad, input.heading_rad));
         let mut texts = Vec::new();
-        if let Some(step) = self.steps.get(self.current).copied() {
+        let can_go_on = |step: &LessonStep| !input.is_return || matches!(step, LessonStep::FlyHome | LessonStep::Land);
+        if let Some(step) = self.steps.get(self.current).copied().filter(can_go_on) {
+            self.state.turned_rad += turned_rad;
             texts.extend(self.mistake(&step, input));
             if self.progress(&step, input) >= 1.0 && input.time - begun >= MIN_STEP_DURATION {
                 self.begin_next(input);
@@ -355,6 +358,7 @@ mod tests {
             pad_m: Vec3::zero(),
             home_radius_m: 3.0,
             armed: true,
+            is_return: false,
             on_ground: false,
             camera_pitch_rad: 0.0,
             lamp: false,
@@ -381,6 +385,19 @@ mod tests {
         assert_eq!(coach.update(&down(70_000)), ["Lesson: all steps done"]);
         assert_eq!((coach.done(), coach.status(&down(70_000)).task), (3, LessonTask::Done));
         assert_eq!(LessonCoach::new(&[]), None, "not a lesson");
+    }
+
+    #[test]
+    fn exact_the_return_does_no_step_but_those_that_lead_home() {
+        let mut coach = coach(&[LessonStep::Turn { angle_rad: 1.0 }, LessonStep::FlyHome]);
+        let at = |ms, heading_rad, is_return| LessonInput { heading_rad, is_return, ..input(ms) };
+        coach.update(&at(0, 0.0, false));
+        coach.update(&at(5_000, 1.5, true));
+        assert_eq!((coach.done(), coach.status(&at(5_000, 1.5, true)).progress), (0, 0.0), "the autopilot has turned");
+        coach.update(&at(6_000, 2.6, false));
+        assert_eq!(coach.done(), 1);
+        coach.update(&at(9_000, 2.6, true));
+        assert_eq!(coach.done(), 2);
     }
 
     #[test]

@@ -91,14 +91,21 @@ pub fn job_title(name: &str, language: Language) -> String {
     find(language, &format!("job-{name}"), &[]).filter(|_| is_shipped).unwrap_or_else(|| name.to_owned())
 }
 
-/// Returns the name of a task from the name of its job and the task's name in the job's file. Names in files other than the
-/// shipped ones are the user's and stay as they are.
+/// Returns the name of a task from the name of its job, which a level can follow, and the task's name in the job's file. Names in files
+/// other than the shipped ones are the user's and stay as they are.
 #[must_use]
 pub fn task_title(scenario: &str, task: &str, language: Language) -> String {
+    let scenario = scenario.split_once('@').map_or(scenario, |(job, _)| job);
     if !SCENARIOS.iter().any(|(name, _)| *name == scenario) {
         return task.to_owned();
     }
     shipped_task_title(task, language)
+}
+
+/// Returns tasks with their titles.
+#[must_use]
+pub fn task_titles(scenario: &str, tasks: &[(u32, String)], language: Language) -> Vec<(u32, String)> {
+    tasks.iter().map(|(id, name)| (*id, task_title(scenario, name, language))).collect()
 }
 
 /// Returns the label of a change: within the error of its measure or beyond it.

@@ -14,8 +14,12 @@ pub struct Quality {
     pub shadow_px: u32,
     /// Shadow filter size per side, texels: 1, 2, or 3.
     pub shadow_taps: u32,
+    /// Whether the edges of the sun's shadows are as wide as its disk makes them; `shadow_taps` are then only those of the lamp.
+    pub penumbra: bool,
     /// Whether the lamp casts shadows.
     pub lamp_shadow: bool,
+    /// Directions per pixel of the ambient occlusion in corners and gaps; 0 for none.
+    pub occlusion_directions: u32,
     /// Size of the water reflection relative to the picture; 0 reflects only the sky.
     pub reflection: f64,
     /// Draws the ground and the lake with fewer triangles where the difference is invisible, and omits the lake bed in
@@ -49,7 +53,9 @@ pub const PRESETS: &[Quality] = &[
         cascades: 1,
         shadow_px: 4096,
         shadow_taps: 1,
+        penumbra: false,
         lamp_shadow: false,
+        occlusion_directions: 0,
         reflection: 0.25,
         sparse: true,
         light_cell_m: 2.5,
@@ -67,7 +73,9 @@ pub const PRESETS: &[Quality] = &[
         cascades: 3,
         shadow_px: 2048,
         shadow_taps: 3,
+        penumbra: false,
         lamp_shadow: true,
+        occlusion_directions: 0,
         reflection: 0.5,
         sparse: false,
         light_cell_m: 2.0,
@@ -85,7 +93,9 @@ pub const PRESETS: &[Quality] = &[
         cascades: 4,
         shadow_px: 2048,
         shadow_taps: 3,
+        penumbra: false,
         lamp_shadow: true,
+        occlusion_directions: 4,
         reflection: 0.5,
         sparse: false,
         light_cell_m: 1.5,
@@ -103,7 +113,9 @@ pub const PRESETS: &[Quality] = &[
         cascades: 4,
         shadow_px: 4096,
         shadow_taps: 3,
+        penumbra: true,
         lamp_shadow: true,
+        occlusion_directions: 8,
         reflection: 1.0,
         sparse: false,
         light_cell_m: 1.0,
@@ -136,6 +148,7 @@ mod tests {
             assert!(a.samples <= b.samples && a.cascades <= b.cascades && a.shadow_taps <= b.shadow_taps, "{}", b.name);
             assert!(a.light_cell_m >= b.light_cell_m && a.light_rays <= b.light_rays && a.trees < b.trees, "{}", b.name);
             assert!(a.surface_vertices < b.surface_vertices, "{}", b.name);
+            assert!(a.penumbra <= b.penumbra && a.occlusion_directions <= b.occlusion_directions, "{}", b.name);
             assert!(
                 a.reflection <= b.reflection && a.blur_taps <= b.blur_taps && a.branches_per_whorl <= b.branches_per_whorl,
                 "{}",

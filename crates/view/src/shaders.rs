@@ -3,6 +3,9 @@
 /// Structures, noise, shadows, and shading shared by the shaders.
 const COMMON: &str = include_str!("shaders/common.wgsl");
 
+/// Ambient occlusion in shaders of surfaces.
+const OCCLUDED: &str = include_str!("shaders/occluded.wgsl");
+
 /// Name of the `develop` variant for multisampled targets.
 pub const DEVELOP_MULTISAMPLED: &str = "develop, sampled";
 
@@ -18,21 +21,22 @@ pub struct ShaderSource {
 /// Returns all shaders.
 #[must_use]
 pub fn all() -> Vec<ShaderSource> {
+    let surface = [COMMON, OCCLUDED, include_str!("shaders/surface.wgsl")].join("\n");
     let drawn = [
-        ("surface", include_str!("shaders/surface.wgsl")),
-        ("defect", include_str!("shaders/defect.wgsl")),
         ("water", include_str!("shaders/water.wgsl")),
         ("precipitation", include_str!("shaders/precipitation.wgsl")),
         ("sky", include_str!("shaders/sky.wgsl")),
     ];
     let mut sources: Vec<ShaderSource> =
         drawn.iter().map(|(name, own)| ShaderSource { name, text: format!("{COMMON}\n{own}") }).collect();
-    let lean = [COMMON, include_str!("shaders/surface.wgsl"), include_str!("shaders/lean.wgsl")].join("\n");
-    sources.push(ShaderSource { name: "lean", text: lean });
+    sources.push(ShaderSource { name: "lean", text: format!("{surface}\n{}", include_str!("shaders/lean.wgsl")) });
+    sources.push(ShaderSource { name: "surface", text: surface });
+    sources.push(ShaderSource { name: "defect", text: [COMMON, OCCLUDED, include_str!("shaders/defect.wgsl")].join("\n") });
     sources.push(ShaderSource { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
     sources.push(ShaderSource { name: "painter", text: include_str!("shaders/painter.wgsl").to_owned() });
     let developing = |own: &str| format!("{}\n{own}", include_str!("shaders/full_screen.wgsl"));
     sources.push(ShaderSource { name: "adapt", text: developing(include_str!("shaders/adapt.wgsl")) });
+    sources.push(ShaderSource { name: "occlusion", text: developing(include_str!("shaders/occlusion.wgsl")) });
     let develop = developing(include_str!("shaders/develop.wgsl"));
     sources.push(ShaderSource { name: "develop", text: develop.clone() });
     let sampled = develop.replace("texture_depth_2d;", "texture_depth_multisampled_2d;");

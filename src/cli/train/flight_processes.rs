@@ -249,6 +249,7 @@ impl FlightProcesses {
             | FromWindow::Language { .. }
             | FromWindow::Aircraft { .. }
             | FromWindow::Declined
+            | FromWindow::PrintBriefing(_)
             | FromWindow::Acknowledged(_) => {}
             FromWindow::Showing => {
                 self.start_expert();

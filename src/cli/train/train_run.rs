@@ -18,8 +18,11 @@ use crate::cli::invocation::typed;
 use crate::cli::table::report_outcome;
 use crate::errors::AppError;
 use crate::io::addresses;
+use crate::io::briefing_page::briefing_page;
 use crate::io::clock;
 use crate::io::files;
+use crate::io::replace::replace;
+use crate::io::report;
 use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::io::user_language::user_language;
@@ -33,6 +36,8 @@ use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
 
+/// File in the sessions' folder with the briefing that was printed last.
+const PRINTED_BRIEFING: &str = "briefing.html";
 /// Interval at which the window is checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
@@ -324,6 +329,7 @@ impl<'a> TrainRun<'a> {
                         self.site_check = Some(SiteCheck { choice, acknowledged_unix_us: clock::unix_us() });
                     }
                     FromWindow::School(request) => self.school.handle(request, language),
+                    FromWindow::PrintBriefing(choice) => window.send(&printed_briefing(&choice, &self.args.sessions, language)),
                     FromWindow::Chosen(choice) => match validate_choice(&choice) {
                         Ok(()) => {
                             self.settle_order(&choice);
@@ -602,6 +608,22 @@ fn refusal(error: &AppError, language: Language) -> ToWindow {
     ToWindow::Refused { words: text!(language, "window-train-refused", error = error.to_string()) }
 }
 
+/// Writes the briefing of a flight as a page to print, and returns the message that opens it in the browser. The next one replaces it.
+fn printed_briefing(choice: &FlightChoice, sessions: &Path, language: Language) -> ToWindow {
+    let write = || -> Result<String, AppError> {
+        let (job, aircraft) = (files::scenario(&choice.scenario)?, files::vehicle(&choice.vehicle)?);
+        let file = sessions.join(PRINTED_BRIEFING);
+        std::fs::create_dir_all(sessions)
+            .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", sessions.display())))?;
+        replace(&file, briefing_page(&job, &aircraft.vehicle, language)?.as_bytes())?;
+        Ok(report::address(&file))
+    };
+    match write() {
+        Ok(address) => ToWindow::OpenPage { address },
+        Err(error) => ToWindow::Refused { words: text!(language, "window-train-no-briefing", error = error.to_string()) },
+    }
+}
+
 /// Validates a choice made in the window in the same way as a choice on the command line.
 fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
     choice.trainee.parse::<TraineeId>().map_err(AppError::invalid)?;
@@ -618,6 +640,27 @@ mod tests {
     use super::super::args::parse_args;
     use super::*;
     use spandrel_view::flow::pipe::Purpose;
+
+    #[test]
+    fn exact_printed_briefing_is_a_page_of_the_job_in_the_language_of_the_window() {
+        let folder = tempfile::tempdir().unwrap();
+        let sessions = folder.path().join("sessions");
+        let choice = |scenario: &str| FlightChoice {
+            trainee: "anna".into(),
+            scenario: scenario.into(),
+            purpose: Purpose::Practice,
+            by: FlownBy::Trainee,
+            vehicle: "phantom2".into(),
+        };
+        let ToWindow::OpenPage { address } = printed_briefing(&choice("drill-hover"), &sessions, Language::German) else {
+            panic!()
+        };
+        let page = std::fs::read_to_string(sessions.join(PRINTED_BRIEFING)).unwrap();
+        assert!(address.ends_with("/sessions/briefing.html") && page.contains("<html lang=\"de\""), "{address}");
+        assert!(page.contains("Kontrolle des Einsatzorts"), "{page}");
+        let ToWindow::Refused { words } = printed_briefing(&choice("no-job"), &sessions, Language::English) else { panic!() };
+        assert!(words.starts_with("The briefing cannot be printed: ") && words.contains("no-job"), "{words}");
+    }
 
     #[test]
     fn exact_crashed_window_is_dropped_before_flight() {

@@ -83,6 +83,7 @@ impl WindowProcess {
             | ToWindow::Paused { .. }
             | ToWindow::Refused { .. }
             | ToWindow::Loading { .. }
+            | ToWindow::OpenPage { .. }
             | ToWindow::School(_)
             | ToWindow::Ghost(_) => {}
         }

@@ -111,6 +111,11 @@ impl Studio {
         (&self.gpu, &mut self.renderer)
     }
 
+    /// Draws the same scene with other settings.
+    pub fn set_quality(&mut self, quality: Quality) {
+        self.renderer = Renderer::new(&self.gpu, quality, &self.scene);
+    }
+
     /// Removes the site's defects from the images.
     pub fn without_defects(&mut self) {
         self.renderer.set_patches(&self.gpu, &[]);

@@ -59,6 +59,9 @@ const COPTER_MODES: [(u32, &str, ControlSource); 15] = [
     (27, "Auto RTL", Autopilot),
 ];
 
+/// Names of the modes in which the aircraft flies home or lands by itself.
+const RETURN_MODES: [&str; 5] = ["Return", "Land", "RTL", "Smart RTL", "Auto RTL"];
+
 /// Returns the name and control source of a mode; `None` if it is unknown. As in common SDKs, a generic autopilot type is treated
 /// as PX4.
 fn lookup(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource)> {
@@ -74,6 +77,12 @@ fn lookup(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSourc
 #[must_use]
 pub fn name(autopilot: u8, custom_mode: u32) -> String {
     lookup(autopilot, custom_mode).map_or_else(|| format!("mode {custom_mode}"), |(name, _)| name.to_owned())
+}
+
+/// Returns whether the aircraft flies home or lands by itself in a mode.
+#[must_use]
+pub fn is_return(autopilot: u8, custom_mode: u32) -> bool {
+    lookup(autopilot, custom_mode).is_some_and(|(name, _)| RETURN_MODES.contains(&name))
 }
 
 impl ControlSource {
@@ -110,6 +119,15 @@ mod tests {
         for (mode, source) in [(5, Pilot), (16, Pilot), (3, Mission), (4, Script), (6, Autopilot), (7, Autopilot), (99, Pilot)] {
             assert_eq!(ControlSource::of(3, mode), source);
         }
+    }
+
+    #[test]
+    fn exact_returning_modes_of_both_autopilots() {
+        let px4 = |sub: u32| is_return(12, sub << 24 | 4 << 16);
+        assert_eq!([2, 3, 4, 5, 6].map(px4), [false, false, false, true, true]);
+        assert_eq!([5, 6, 9, 20, 21, 27].map(|mode| is_return(3, mode)), [false, true, true, false, true, true]);
+        let named = |name: &&str| PX4_MODES.iter().any(|mode| mode.2 == *name) || COPTER_MODES.iter().any(|mode| mode.1 == *name);
+        assert!(RETURN_MODES.iter().all(named));
     }
 
     #[test]

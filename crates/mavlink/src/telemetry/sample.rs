@@ -4,7 +4,7 @@
 
 use crate::checksum::checksum;
 use crate::contract::contact::ContactKind;
-use crate::contract::modes::ControlSource;
+use crate::contract::modes::{ControlSource, is_return};
 use crate::contract::named_values::NamedValue;
 use crate::contract::sticks::Sticks;
 use crate::contract::truth::{self, Truth, clock};
@@ -69,6 +69,8 @@ pub enum SampleValue {
         armed: bool,
         /// Source of the commands that fly the aircraft.
         by: ControlSource,
+        /// Whether the aircraft flies home or lands by itself.
+        is_return: bool,
     },
     /// Whether the autopilot reports that the aircraft is on the ground.
     OnGround(bool),
@@ -236,10 +238,9 @@ fn decode_value(header: &FrameHeader, payload: &[u8]) -> Option<(Option<SimTime>
         HEARTBEAT_DATA::ID => {
             let beat: HEARTBEAT_DATA = body(payload)?;
             let armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
-            (header.sender.1 == 1).then_some((
-                None,
-                SampleValue::Heartbeat { armed, by: ControlSource::of(beat.autopilot as u8, beat.custom_mode) },
-            ))
+            let (autopilot, mode) = (beat.autopilot as u8, beat.custom_mode);
+            let (by, is_return) = (ControlSource::of(autopilot, mode), is_return(autopilot, mode));
+            (header.sender.1 == 1).then_some((None, SampleValue::Heartbeat { armed, by, is_return }))
         }
         EXTENDED_SYS_STATE_DATA::ID => {
             let state: EXTENDED_SYS_STATE_DATA = body(payload)?;

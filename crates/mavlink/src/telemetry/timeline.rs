@@ -416,7 +416,7 @@ impl Flight {
             SampleValue::Clearance(v) => self.clearance.push(time, order, v),
             SampleValue::GimbalPitch(v) => self.gimbal.push(time, order, v),
             SampleValue::FieldOfView(v) => self.field_of_view.push(time, order, v),
-            SampleValue::Heartbeat { armed, by } => {
+            SampleValue::Heartbeat { armed, by, .. } => {
                 self.armed.push(time, order, armed);
                 self.flown_by.push(time, order, by);
             }

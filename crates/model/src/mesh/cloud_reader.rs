@@ -16,6 +16,12 @@ const OTHER_CLASSES: [u8; 4] = [2, 7, 9, 18];
 const MINOR_VERSION: usize = 25;
 const EXTENDED_RECORDS_MINOR: u8 = 4;
 const EXTENDED_RECORDS: Range<usize> = 235..247;
+/// Offsets of the position of the points and of their format in the header, and the bit of the format that means compressed.
+const POINTS_POSITION: usize = 96;
+const POINT_FORMAT: usize = 104;
+const COMPRESSED: u8 = 0x80;
+/// Size of the smallest point, with which each chunk of compressed points begins, bytes (LAS 1.4, format 0).
+const MIN_CHUNK_BYTES: usize = 20;
 /// Highest value of a color of 8 bits.
 const MAX_8_BIT: u16 = 255;
 
@@ -32,6 +38,7 @@ pub(super) fn read_las(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
 fn decode_las(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
     let problem = |words: &dyn std::fmt::Display| format!("{file}: {words}");
     let invalid = |error: las::Error| problem(&format!("not a LAS or LAZ file: {error}"));
+    check_chunk_count(bytes).map_err(|words| problem(&words))?;
     let mut reader = Reader::new(Cursor::new(without_extended_records(bytes))).map_err(invalid)?;
     let count = reader.header().number_of_points();
     if count > MAX_POINTS as u64 {
@@ -50,6 +57,34 @@ fn decode_las(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
         add_chunk(&chunk, &mut cloud, &mut colors).map_err(|words| problem(&words))?;
     }
     finished(file, colors.apply(cloud))
+}
+
+/// Checks that a compressed file can contain as many chunks as its table states, because the decoder allocates memory for all of them. Anything
+/// else that is wrong with the table is left to the decoder.
+fn check_chunk_count(bytes: &[u8]) -> Result<(), String> {
+    if bytes.get(POINT_FORMAT).is_none_or(|format| format & COMPRESSED == 0) {
+        return Ok(());
+    }
+    let most = bytes.len() / MIN_CHUNK_BYTES;
+    match stated_chunk_count(bytes) {
+        Some(count) if count as usize > most => {
+            Err(format!("not a LAS or LAZ file: {count} chunks (allowed: at most {most}, of the file's {} bytes)", bytes.len()))
+        }
+        Some(_) | None => Ok(()),
+    }
+}
+
+/// Returns the number of chunks that the table of a compressed file states. The table's position comes before the points; a program that wrote
+/// the file without going back has left -1 there, and the position at the end.
+fn stated_chunk_count(bytes: &[u8]) -> Option<u32> {
+    let four = |at: usize| bytes.get(at..)?.first_chunk().copied().map(u32::from_le_bytes);
+    let eight = |at: usize| bytes.get(at..)?.first_chunk().copied().map(i64::from_le_bytes);
+    let table = match eight(four(POINTS_POSITION)? as usize)? {
+        -1 => eight(bytes.len().checked_sub(8)?)?,
+        position => position,
+    };
+    // After the table's version.
+    four(usize::try_from(table).ok()?.checked_add(4)?)
 }
 
 /// Returns a copy of a file whose header names no extended records: they hold no points, and a damaged one can claim any size, which the

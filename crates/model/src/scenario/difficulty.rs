@@ -250,7 +250,7 @@ impl DifficultyTable<'_> {
         }
         let (low, high) = (easiest.min(hardest), easiest.max(hardest));
         if let Some(outside) = own.iter().find(|own| !(low..=high).contains(*own)) {
-            let allowed = format!("{} within the range, which is {}", keys.changes, format_limit(*outside));
+            let allowed = format!("a range that contains {} = {}", keys.changes, format_limit(*outside));
             r.add_problem(&self.section, keys.key, &stated, &allowed, "the file's own value is outside");
         }
     }

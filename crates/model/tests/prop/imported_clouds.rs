@@ -149,6 +149,18 @@ fn exact_boxes_divide_a_cloud() {
 }
 
 #[test]
+fn regress_a_cloud_with_more_chunks_than_it_has_room_for_names_both_numbers() {
+    let mut file = red_las(true, 20);
+    // The header has the position of the points, which begin with that of the table, in which the number follows the version.
+    let points = u32::from_le_bytes(*file[96..].first_chunk().unwrap()) as usize;
+    let table = i64::from_le_bytes(*file[points..].first_chunk().unwrap()) as usize;
+    file[table + 4..table + 8].copy_from_slice(&u32::MAX.to_le_bytes());
+    let error = reader::read(ModelFormat::Las, "scan.laz", &file, &|_| Err(String::new())).unwrap_err();
+    let most = file.len() / 20;
+    assert!(error.contains(&format!("4294967295 chunks (allowed: at most {most}, ")), "{error}");
+}
+
+#[test]
 fn regress_truncated_and_damaged_clouds_never_cause_a_panic() {
     let mut random = RandomStream::new(6, "clouds");
     for is_compressed in [false, true] {

@@ -116,6 +116,8 @@ struct LiveState {
     clearance_m: Option<f64>,
     armed: Option<bool>,
     flown_by: Option<ControlSource>,
+    /// Whether the aircraft flies home or lands by itself.
+    is_return: bool,
     on_ground: bool,
     camera_pitch_rad: f64,
     /// Horizontal field of view, once received; `None` for a fixed lens.
@@ -432,6 +434,7 @@ impl LiveState {
             on_pad: false,
             clearance_m: None,
             armed: None,
+            is_return: false,
             flown_by: None,
             on_ground: false,
             camera_pitch_rad: 0.0,

@@ -23,6 +23,7 @@ impl Monitor {
             pad_m: team.pad_m,
             home_radius_m: team.home_radius_m,
             armed: self.live.armed.unwrap_or(false),
+            is_return: self.live.is_return,
             on_ground: self.live.on_ground,
             camera_pitch_rad: self.live.camera_pitch_rad,
             lamp: self.live.lamp,

@@ -105,8 +105,8 @@ impl Monitor {
                 }
             }
             SampleValue::Clearance(meters) => self.live.clearance_m = Some(meters),
-            SampleValue::Heartbeat { armed, by } => {
-                self.live.armed = Some(armed);
+            SampleValue::Heartbeat { armed, by, is_return } => {
+                (self.live.armed, self.live.is_return) = (Some(armed), is_return);
                 if self.live.flown_by.replace(by) != Some(by) {
                     self.event("flown_by", json!({ "by": by }));
                 }

@@ -1,5 +1,5 @@
 placing-title = Schäden platzieren
-placing-note = Wählen Sie einen Schaden und klicken Sie dann in eine Zeichnung einer Brücke. Platzierte Schäden ersetzen die zufälligen.
+placing-note = Wählen Sie einen Schaden und klicken Sie dann in eine Zeichnung einer Brücke. Platzierte Schäden ersetzen die zufälligen: Sobald Sie einen platzieren, hat dieses Szenario keine zufälligen mehr.
 placing-kind = Schaden
 placing-state = Zustandsstufe
 placing-state-2 = 2: mäßig

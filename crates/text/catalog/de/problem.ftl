@@ -117,7 +117,7 @@ problem-allowed-one-of-keys = mindestens eines von { $keys }
 problem-allowed-levels = 1 bis levels, { $levels }
 problem-allowed-order-smaller = leichteste, schwerste Stufe; der erste Wert ist kleiner
 problem-allowed-order-larger = leichteste, schwerste Stufe; der erste Wert ist größer
-problem-allowed-within = { $key } innerhalb des Bereichs, { $value }
+problem-allowed-within = ein Bereich, der { $key } = { $value } enthält
 problem-allowed-bridges = eine Brücke in dieser Datei: { $names }
 problem-allowed-points = ein oder mehrere [Ost, Nord, Höhe]
 problem-allowed-path-length = höchstens { $most } m Bahn

@@ -50,6 +50,7 @@ window-waiting-briefing = Briefing wird vorbereitet ...
 
 window-briefing-title = Einweisung: { $job }
 window-briefing-acknowledge = Gelesen und Einsatzort kontrolliert: fliegen
+window-briefing-print = Einweisung drucken
 window-briefing-site-check = Kontrolle des Einsatzorts
 window-briefing-tasks = Aufgaben, in dieser Reihenfolge
 window-briefing-conditions = Bedingungen
@@ -297,6 +298,7 @@ window-train-not-in-assessment = Im Bewertungsflug nicht möglich.
 window-train-in-flight = Ein Flug läuft: Beenden Sie ihn zuerst.
 window-train-no-window = Dieses Programm wurde ohne das Fenster gebaut
 window-train-refused = Der Flug kann nicht beginnen: { $error }
+window-train-no-briefing = Die Einweisung kann nicht gedruckt werden: { $error }
 # A flight that an instructor has ordered at this station.
 window-ordered = Ihr Ausbilder hat einen Flug für { $trainee } gewählt: { $job } ({ $purpose }).
 window-ordered-declined = Sie haben den Flug abgelehnt, den Ihr Ausbilder gewählt hat.

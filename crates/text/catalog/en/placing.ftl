@@ -1,7 +1,7 @@
 ### Scenario editor: placing defects on the drawings.
 
 placing-title = Place defects
-placing-note = Choose a defect, then click a drawing of a bridge. Placed defects replace the random ones.
+placing-note = Choose a defect, then click a drawing of a bridge. Placed defects replace the random ones: as soon as you place one, the random ones of this scenario are gone.
 placing-kind = Defect
 placing-state = Condition state
 placing-state-2 = 2: fair

@@ -123,7 +123,7 @@ problem-allowed-one-of-keys = at least one of { $keys }
 problem-allowed-levels = 1 to levels, which is { $levels }
 problem-allowed-order-smaller = easiest, hardest; the first is smaller
 problem-allowed-order-larger = easiest, hardest; the first is larger
-problem-allowed-within = { $key } within the range, which is { $value }
+problem-allowed-within = a range that contains { $key } = { $value }
 problem-allowed-bridges = a bridge in this file: { $names }
 problem-allowed-points = one or more [east, north, up]
 problem-allowed-path-length = at most { $most } m of path

@@ -51,6 +51,7 @@ window-waiting-briefing = Preparing briefing ...
 
 window-briefing-title = Briefing: { $job }
 window-briefing-acknowledge = I have read this and checked the site: fly
+window-briefing-print = Print the briefing
 window-briefing-site-check = Site check
 window-briefing-tasks = Tasks, in this order
 window-briefing-conditions = Conditions
@@ -303,6 +304,7 @@ window-train-not-in-assessment = Not available in an assessment.
 window-train-in-flight = A flight is in progress: end it first.
 window-train-no-window = this program was built without the window
 window-train-refused = The flight cannot start: { $error }
+window-train-no-briefing = The briefing cannot be printed: { $error }
 # A flight that an instructor has ordered at this station.
 window-ordered = Your instructor has chosen a flight for { $trainee }: { $job } ({ $purpose }).
 window-ordered-declined = You have declined the flight that your instructor chose.

@@ -1,5 +1,5 @@
 placing-title = Colocar defectos
-placing-note = Elija un defecto y haga clic en un dibujo de un puente. Los defectos colocados sustituyen a los aleatorios.
+placing-note = Elija un defecto y haga clic en un dibujo de un puente. Los defectos colocados sustituyen a los aleatorios: en cuanto coloque uno, este escenario ya no tendrá aleatorios.
 placing-kind = Defecto
 placing-state = Estado de condición
 placing-state-2 = 2: regular

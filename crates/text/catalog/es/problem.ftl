@@ -117,7 +117,7 @@ problem-allowed-one-of-keys = al menos uno de { $keys }
 problem-allowed-levels = de 1 a levels, { $levels }
 problem-allowed-order-smaller = nivel más fácil, más difícil; el primer valor es menor
 problem-allowed-order-larger = nivel más fácil, más difícil; el primer valor es mayor
-problem-allowed-within = { $key } dentro del intervalo, { $value }
+problem-allowed-within = un intervalo que contenga { $key } = { $value }
 problem-allowed-bridges = un puente de este archivo: { $names }
 problem-allowed-points = uno o más [este, norte, altura]
 problem-allowed-path-length = { $most } m de trayectoria como máximo

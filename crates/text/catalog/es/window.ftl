@@ -50,6 +50,7 @@ window-waiting-briefing = Preparando las instrucciones ...
 
 window-briefing-title = Instrucciones: { $job }
 window-briefing-acknowledge = He leído esto y revisé el sitio: volar
+window-briefing-print = Imprimir las instrucciones
 window-briefing-site-check = Revisión del sitio
 window-briefing-tasks = Tareas, en este orden
 window-briefing-conditions = Condiciones
@@ -300,6 +301,7 @@ window-train-not-in-assessment = No disponible en una evaluación.
 window-train-in-flight = Hay un vuelo en curso: termínelo primero.
 window-train-no-window = este programa se compiló sin la ventana
 window-train-refused = El vuelo no puede empezar: { $error }
+window-train-no-briefing = No se pueden imprimir las instrucciones: { $error }
 # A flight that an instructor has ordered at this station.
 window-ordered = Su instructor ha elegido un vuelo para { $trainee }: { $job } ({ $purpose }).
 window-ordered-declined = Ha rechazado el vuelo que eligió su instructor.

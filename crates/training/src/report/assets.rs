@@ -11,6 +11,8 @@ pub const STYLE: &str = include_str!("assets/report.css");
 pub const COMMON_SCRIPT: &str = include_str!("assets/common.js");
 /// Script for the session report.
 pub const SCRIPT: &str = include_str!("assets/report.js");
+/// Script of the button that prints a page.
+pub const PRINT_SCRIPT: &str = include_str!("assets/print.js");
 /// Script for the session comparison page.
 pub const COMPARE_SCRIPT: &str = include_str!("assets/compare.js");
 /// uPlot 1.6.32 (MIT, assets/uPlot.LICENSE): `dist/uPlot.iife.min.js` of the npm package `uplot`.
@@ -48,7 +50,7 @@ pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
 /// Returns the policy for report pages written by this version.
 #[must_use]
 pub fn page_policy() -> String {
-    policy(&[UPLOT_SCRIPT, COMMON_SCRIPT, SCRIPT, COMPARE_SCRIPT], &[STYLE, UPLOT_STYLE])
+    policy(&[UPLOT_SCRIPT, COMMON_SCRIPT, SCRIPT, PRINT_SCRIPT, COMPARE_SCRIPT], &[STYLE, UPLOT_STYLE])
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ pub const STYLE_NAME: &str = "style.css";
 /// File name of the questionnaire's script.
 pub const FORM_NAME: &str = "form.js";
 /// File name of the script of a job's briefing.
-pub const BRIEFING_NAME: &str = "briefing.js";
+pub const PRINT_NAME: &str = "print.js";
 /// File name of the live page's script.
 pub const LIVE_NAME: &str = "live.js";
 /// File name of the script for the page with all live flights.
@@ -25,7 +25,6 @@ pub const FLIGHT_NAME: &str = "flight.js";
 
 const STYLE_SHEET: &str = include_str!("assets/web.css");
 const FORM_SCRIPT: &str = include_str!("assets/form.js");
-const BRIEFING_SCRIPT: &str = include_str!("assets/briefing.js");
 /// Functions at the beginning of the live pages' scripts.
 const LIVE_COMMON_SCRIPT: &str = include_str!("assets/live_common.js");
 const TILES_SCRIPT: &str = include_str!("assets/tiles.js");
@@ -42,7 +41,7 @@ pub fn file(name: &str) -> Option<(String, &'static str)> {
     match name {
         STYLE_NAME => Some((format!("{}{STYLE_SHEET}", report::STYLE), "text/css; charset=utf-8")),
         FORM_NAME => Some((FORM_SCRIPT.to_owned(), script)),
-        BRIEFING_NAME => Some((BRIEFING_SCRIPT.to_owned(), script)),
+        PRINT_NAME => Some((report::PRINT_SCRIPT.to_owned(), script)),
         LIVE_NAME => Some((format!("{LIVE_COMMON_SCRIPT}{LIVE_SCRIPT}"), script)),
         TILES_NAME => Some((format!("{LIVE_COMMON_SCRIPT}{TILES_SCRIPT}"), script)),
         SESSION_NAME => Some((SESSION_SCRIPT.to_owned(), script)),
@@ -67,7 +66,7 @@ mod tests {
     #[test]
     fn exact_asset_urls_contain_content_hash() {
         let scripts =
-            [FORM_NAME, BRIEFING_NAME, LIVE_NAME, TILES_NAME, SESSION_NAME, FLIGHT_NAME, EDITOR_NAME, STATIONS_SCRIPT_NAME];
+            [FORM_NAME, PRINT_NAME, LIVE_NAME, TILES_NAME, SESSION_NAME, FLIGHT_NAME, EDITOR_NAME, STATIONS_SCRIPT_NAME];
         for name in [STYLE_NAME].into_iter().chain(scripts) {
             let (text, _) = file(name).unwrap();
             assert_eq!(asset_url(name), format!("/assets/{name}?v={}", &sha256_hex(text.as_bytes())[..12]));

@@ -34,10 +34,16 @@ pub struct BrowserSession {
 #[derive(Debug, Default)]
 pub struct BrowserSessions(BTreeMap<[u8; 32], BrowserSession>);
 
-/// Encodes a secret as text for a cookie or form.
+/// Encodes a secret as text for a cookie, form or address.
 #[must_use]
 pub fn encode_token(secret: &TokenBytes) -> String {
     secret.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Returns the key with which a visitor's page loads one file without the cookie. `token` is the visitor's CSRF token.
+#[must_use]
+pub fn file_key(token: &str, file: &str) -> String {
+    encode_token(&Sha256::digest(format!("{token}/{file}").as_bytes()).into())
 }
 
 fn key(cookie: &str) -> [u8; 32] {
@@ -47,7 +53,17 @@ fn key(cookie: &str) -> [u8; 32] {
 impl BrowserSessions {
     /// Returns the session for a cookie and extends it; `None` if there is none or it has expired.
     pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<BrowserSession> {
-        let key = key(cookie);
+        self.extend(key(cookie), now_us)
+    }
+
+    /// Returns the session of the visitor who received this [`file_key`] and extends it; `None` if there is none or it has expired.
+    pub fn find_by_file_key(&mut self, file: &str, given: &str, now_us: u64) -> Option<BrowserSession> {
+        let is_owner = |visit: &BrowserSession| constant_time_eq(&file_key(&visit.token, file), given);
+        let key = self.0.iter().find(|(_, visit)| is_owner(visit)).map(|(key, _)| *key)?;
+        self.extend(key, now_us)
+    }
+
+    fn extend(&mut self, key: [u8; 32], now_us: u64) -> Option<BrowserSession> {
         let visit = self.0.get_mut(&key)?;
         let over = now_us.saturating_sub(visit.last_used_us) > IDLE_TIMEOUT_US
             || now_us.saturating_sub(visit.started_us) > MAX_SESSION_AGE_US;
@@ -145,6 +161,20 @@ mod tests {
         }
         assert_eq!(visits.find(&cookie, MAX_SESSION_AGE_US + 1), None);
         assert_eq!(visits.find("", 0), None);
+    }
+
+    #[test]
+    fn exact_file_key_is_for_one_file_and_ends_with_its_session() {
+        let mut visits = BrowserSessions::default();
+        let (cookie, visit) = visits.begin(Some(("anna", TEST_CREDENTIAL)), [[1; 32], [8; 32]], 0);
+        visits.begin(Some(("ben", TEST_CREDENTIAL)), [[2; 32], [9; 32]], 0);
+        let key = file_key(&visit.token, "flight-1");
+        let mut name =
+            |file: &str, key: &str, now_us: u64| visits.find_by_file_key(file, key, now_us).and_then(|visit| visit.name);
+        assert_eq!(name("flight-1", &key, 1), Some("anna".into()));
+        assert_eq!((name("flight-2", &key, 1), name("flight-1", "", 1), name("flight-1", &visit.token, 1)), (None, None, None));
+        assert_eq!(name("flight-1", &key, IDLE_TIMEOUT_US + 2), None, "expired");
+        assert_eq!(visits.find(&cookie, 0), None, "and removed");
     }
 
     #[test]

@@ -48,6 +48,8 @@ static VALUES: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(2, |l, v| text!(l, "editor-allowed-range", low = v[0], high = v[1])),
         Sentence::new(0, |l, _| text!(l, "editor-default-first-form")),
         Sentence::new(0, |l, _| text!(l, "editor-default-standard-level")),
+        Sentence::new(0, |l, _| text!(l, "editor-default-middle-span")),
+        Sentence::new(0, |l, _| text!(l, "editor-default-first-pier")),
         Sentence::new(1, |l, v| text!(l, "editor-default-by-level", values = v[0])),
         Sentence::new(1, |l, v| text!(l, "editor-default-by-kind", values = v[0])),
         Sentence::new(2, |l, v| text!(l, "editor-default-true-for", first = v[0], second = v[1])),
@@ -90,6 +92,14 @@ mod tests {
         quoted.sort_unstable();
         numbers.sort_unstable();
         (quoted, numbers)
+    }
+
+    #[test]
+    fn exact_every_default_in_words_is_translated() {
+        let is_in_words = |default: &&str| default.contains(' ') && default.contains(|sign: char| sign.is_ascii_lowercase());
+        for default in form_keys().map(|description| description.documented.default.as_str()).filter(is_in_words) {
+            assert_ne!(default_words(Language::German, default), default);
+        }
     }
 
     #[test]

@@ -5,7 +5,6 @@
 pub mod access;
 pub mod assets;
 pub mod assignments;
-pub mod back_links;
 pub mod browser_sessions;
 pub mod classes;
 pub mod cohort_page;
@@ -31,6 +30,7 @@ pub mod scenario_fields;
 pub mod scenario_form;
 mod scenario_labels;
 pub mod scenarios;
+pub mod served_report;
 pub mod sessions;
 pub mod settings;
 pub mod stations;

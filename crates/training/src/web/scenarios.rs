@@ -1,12 +1,12 @@
 //! Scenario list, scenario page and upload, and import of recorded flights.
 
 use super::access::{AccessLevel, Visitor};
-use super::assets::BRIEFING_NAME;
+use super::assets::PRINT_NAME;
 use super::layout::{ELEMENT, Notice, message, page, page_with_script, section, table, token, with_element};
 use crate::briefing::Briefing;
 use crate::plan::level_settings;
 use crate::report::formatting;
-use crate::report::page::{briefing_contents, briefing_picture};
+use crate::report::page::{briefing_contents, briefing_picture, print_button};
 use crate::report::plots::job::job_plan;
 use crate::terms::{scenario_title, task_title};
 use maud::{Markup, html};
@@ -214,12 +214,11 @@ pub fn briefing_page(
     let language = visitor.language;
     let body = html! {
         p.lead { (briefing.title) }
-        // Works only with scripts, which show it.
-        button type="button" id="print" hidden { (text!(language, "report-print")) }
+        (print_button(language))
         (briefing_contents(briefing, (scenario, site), pictures, language))
     };
     let title = text!(language, "editor-briefing-title", name = briefing.job.as_str());
-    page_with_script(visitor, "/scenarios", &title, Some(BRIEFING_NAME), &body)
+    page_with_script(visitor, "/scenarios", &title, Some(PRINT_NAME), &body)
 }
 
 /// Reason why a recording was not imported.

@@ -11,9 +11,9 @@ use std::sync::Arc;
 /// Left margin, and gap between the columns.
 const LEFT: f64 = 0.04;
 const COLUMN_GAP: f64 = 0.06;
-/// Top of the columns, and of the menu.
+/// Top of the columns, or of the menu above them; gap between both, and below a menu at the bottom.
 const TOP: f64 = 0.15;
-const MENU_TOP: f64 = 0.82;
+const MENU_GAP: f64 = 0.03;
 /// Smallest font size, relative to secondary text, before the page is scrolled instead.
 const MIN_SIZE_RATIO: f64 = 0.55;
 /// Share of the width for the drawings of the site.
@@ -37,6 +37,7 @@ const HEADING_GAP: f64 = 0.6;
 pub fn rows(language: Language) -> Vec<MenuRow> {
     vec![
         MenuRow::button(MenuAction::Acknowledge, text!(language, "window-briefing-acknowledge")),
+        MenuRow::button(MenuAction::PrintBriefing, text!(language, "window-briefing-print")),
         MenuRow::button(MenuAction::Back, text!(language, "window-back")),
     ]
 }
@@ -58,23 +59,24 @@ pub fn page(pen: &mut PageWriter, (job, drawing): (&JobOffer, Option<&Arc<JobDra
     let width = if is_narrow { whole } else { 0.5 * (texts - COLUMN_GAP) };
     // A page that fits has its menu at the bottom. Otherwise, it is scrolled, and has its menu at the top, where it is always seen first.
     let pictures = &job.briefing.pictures;
-    let fits = fitting_size(&columns, width).filter(|_| !is_narrow && pen.height >= 1.0 && pictures.is_empty());
-    let first = if fits.is_some() { TOP } else { TOP + 1.0 - MENU_TOP };
+    let menu_height = menu::columns_height(whole, rows);
+    let room = 1.0 - TOP - menu_height - 2.0 * MENU_GAP;
+    let fits = fitting_size(&columns, width, room).filter(|_| !is_narrow && pen.height >= 1.0 && pictures.is_empty());
+    let first = if fits.is_some() { TOP } else { TOP + menu_height + MENU_GAP };
     let mut bottom = first;
     for (k, column) in columns.iter().enumerate() {
         let (x, top) = if is_narrow { (LEFT, bottom) } else { (LEFT + (width + COLUMN_GAP) * k as f64, first) };
         bottom = draw_column(pen, ((x, top), width), column, fits.unwrap_or(SMALL_TEXT_SIZE)).max(bottom);
     }
     if let Some(drawing) = drawing {
-        let (place, room) =
-            if is_narrow { ((LEFT, bottom), f64::INFINITY) } else { ((LEFT + whole - drawn, first), MENU_TOP - TOP) };
+        let (place, room) = if is_narrow { ((LEFT, bottom), f64::INFINITY) } else { ((LEFT + whole - drawn, first), room) };
         bottom = draw_site(pen, drawing, (place, drawn), room).max(bottom);
     }
     if !pictures.is_empty() {
         draw_pictures(pen, pictures, ((LEFT, bottom + PICTURE_GAP), whole));
     }
-    let menu_top = if fits.is_some() { MENU_TOP } else { TOP };
-    menu::draw(pen, (LEFT, menu_top), whole, rows, focus);
+    let menu_top = if fits.is_some() { 1.0 - menu_height - MENU_GAP } else { TOP };
+    menu::draw_columns(pen, (LEFT, menu_top), whole, rows, focus);
 }
 
 /// Draws the site one drawing below the other, as high as they are, or lower if there is less room. Returns the y position below.
@@ -139,9 +141,9 @@ fn columns(briefing: &JobBriefing, language: Language) -> [Vec<Block<'_>>; 2] {
     [left, right].map(|column| column.into_iter().filter(|(_, lines)| !lines.is_empty()).collect())
 }
 
-/// Returns the largest font size at which both columns fit above the menu, if there is one.
-fn fitting_size(columns: &[Vec<Block<'_>>; 2], width: f64) -> Option<f64> {
-    let fits = |size: &f64| columns.iter().all(|column| column_height(column, width, *size) <= MENU_TOP - TOP - 0.02);
+/// Returns the largest font size at which both columns fit into a height, if there is one.
+fn fitting_size(columns: &[Vec<Block<'_>>; 2], width: f64, room: f64) -> Option<f64> {
+    let fits = |size: &f64| columns.iter().all(|column| column_height(column, width, *size) <= room);
     (0..=9).map(|k| SMALL_TEXT_SIZE * (1.0 - (1.0 - MIN_SIZE_RATIO) * f64::from(k) / 9.0)).find(fits)
 }
 

@@ -65,6 +65,8 @@ pub enum MenuAction {
     Fly,
     /// Acknowledge the briefing and start the flight.
     Acknowledge,
+    /// Open the briefing as a page to print.
+    PrintBriefing,
     /// Return to the running flight.
     KeepFlying,
     /// Return to the previous page.
@@ -156,9 +158,7 @@ pub fn draw_above(pen: &mut PageWriter, (x, y): (f64, f64), (width, bottom): (f6
 
 /// Draws the rows in columns, each from top to bottom, and returns the y position below the longest one.
 pub fn draw_columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
-    let count = ((width + COLUMN_GAP) / (MIN_COLUMN_WIDTH + COLUMN_GAP)).floor().max(1.0);
-    let column = (width + COLUMN_GAP) / count - COLUMN_GAP;
-    let length = rows.len().div_ceil(count as usize).max(1);
+    let (column, length) = column_of(width, rows.len());
     let mut bottom = y;
     for (k, part) in rows.chunks(length).enumerate() {
         let left = x + (column + COLUMN_GAP) * k as f64;
@@ -166,6 +166,19 @@ pub fn draw_columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: 
         bottom = draw_part(pen, (left, y), column, part, (k * length, focus), sizes).max(bottom);
     }
     bottom
+}
+
+/// Returns the height of the rows that [`draw_columns`] draws, with a gap below them.
+pub fn columns_height(width: f64, rows: &[MenuRow]) -> f64 {
+    let (column, length) = column_of(width, rows.len());
+    let row_height = |row| RowShape::of(row, (column, ROW_HEIGHT), false).height + ROW_SPACING - ROW_HEIGHT;
+    rows.chunks(length).map(|part| part.iter().map(row_height).sum()).fold(0.0, f64::max)
+}
+
+/// Returns the width of a column, and the number of rows in the longest one.
+fn column_of(width: f64, rows: usize) -> (f64, usize) {
+    let count = ((width + COLUMN_GAP) / (MIN_COLUMN_WIDTH + COLUMN_GAP)).floor().max(1.0);
+    ((width + COLUMN_GAP) / count - COLUMN_GAP, rows.div_ceil(count as usize).max(1))
 }
 
 /// Draws rows of a height, of which the first has the number `first`.

@@ -348,6 +348,7 @@ impl WindowFlow {
                 }
                 self.ended = None;
                 self.notice = None;
+                self.leave_large_map();
                 (self.restart_requested, self.ordered, self.flown_s) = (false, false, 0.0);
                 self.flying = Some(flying.clone());
                 self.out.push_back(WindowRequest::ShowFlight(Box::new(flying)));
@@ -391,6 +392,7 @@ impl WindowFlow {
                 self.show_page(Page::School);
             }
             ToWindow::School(_) => {}
+            ToWindow::OpenPage { address } => self.out.push_back(WindowRequest::Open(address)),
             ToWindow::Loading { words } => self.loading = Some(words),
         }
     }

@@ -391,6 +391,11 @@ pub enum ToWindow {
         /// Words for the user.
         words: String,
     },
+    /// Open a page in the browser.
+    OpenPage {
+        /// Its address.
+        address: String,
+    },
     /// The defect school's page.
     School(SchoolPage),
 }
@@ -415,6 +420,8 @@ pub enum FromWindow {
     Showing,
     /// The trainee has read the briefing of this flight and acknowledged its site check; [`Self::Chosen`] follows.
     Acknowledged(FlightChoice),
+    /// Write the briefing of this flight as a page to print; [`ToWindow::OpenPage`] follows.
+    PrintBriefing(FlightChoice),
     /// Start this flight.
     Chosen(FlightChoice),
     /// The trainee has left the pages of the ordered flight without starting it.

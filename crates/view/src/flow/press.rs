@@ -130,6 +130,7 @@ impl WindowFlow {
             | MenuAction::Calibrate
             | MenuAction::Fly
             | MenuAction::Acknowledge
+            | MenuAction::PrintBriefing
             | MenuAction::KeepFlying
             | MenuAction::Back
             | MenuAction::Next
@@ -235,6 +236,7 @@ impl WindowFlow {
             }
             MenuAction::Fly => self.brief(),
             MenuAction::Acknowledge => self.acknowledge(),
+            MenuAction::PrintBriefing => self.send(FromWindow::PrintBriefing(self.choice.clone())),
             MenuAction::Back => self.back(),
             MenuAction::Next => self.turn_tutorial_page(),
             MenuAction::Skip => self.finish_tutorial(),

@@ -1004,6 +1004,20 @@ fn exact_a_flight_starts_only_after_the_briefing_is_acknowledged() {
     assert_eq!(pending_requests(&mut flow), acknowledged(choice));
 }
 
+#[test]
+fn exact_a_printed_briefing_opens_in_the_browser_or_says_why_not() {
+    let mut flow = opened();
+    flow.handle_message(ToWindow::Offers(briefed_offers()));
+    flow.handle_message(ToWindow::Briefing);
+    open(&mut flow, MenuAction::PrintBriefing);
+    let choice = flow.choice().clone();
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::PrintBriefing(choice))]);
+    flow.handle_message(ToWindow::OpenPage { address: "file:///a/briefing.html".into() });
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Open("file:///a/briefing.html".into())]);
+    flow.handle_message(ToWindow::Refused { words: "a picture is missing".into() });
+    assert_eq!((flow.page(), flow.notice()), (Page::Briefing, Some("a picture is missing")));
+}
+
 /// Returns the messages with which the window starts a flight after its briefing.
 fn acknowledged(choice: FlightChoice) -> [WindowRequest; 2] {
     [FromWindow::Acknowledged(choice.clone()), FromWindow::Chosen(choice)].map(WindowRequest::Send)
@@ -1054,7 +1068,7 @@ fn exact_another_aircraft_needs_its_own_briefing_and_flies() {
     press(&mut flow, &[KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Briefing);
     assert!(words(&flow).contains("Preparing briefing") && !words(&flow).contains("flown with"), "{}", words(&flow));
-    assert!(flow.rows().iter().all(|row| row.action != MenuAction::Acknowledge));
+    assert!(flow.rows().iter().all(|row| row.action != MenuAction::Acknowledge && row.action != MenuAction::PrintBriefing));
     assert_eq!(pending_requests(&mut flow), [], "one request is enough");
     flow.handle_message(ToWindow::Offers(offers_for("elios3")));
     assert!(words(&flow).contains("flown with elios3"), "{}", words(&flow));

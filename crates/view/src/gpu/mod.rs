@@ -2,6 +2,7 @@
 
 mod device;
 mod lru_cache;
+mod occlusion;
 mod overlay;
 mod painter;
 mod pass;

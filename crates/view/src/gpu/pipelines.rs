@@ -1,6 +1,7 @@
 //! Render pipelines.
 
 mod labels;
+mod occlusion;
 mod painter;
 
 use super::device::Gpu;
@@ -10,9 +11,11 @@ use crate::quality::Quality;
 use crate::scene::defects::{STAIN_CODES, defect_drawings};
 use crate::scene::{DefectPatch, Instance};
 use crate::shaders;
+use occlusion::OCCLUSION_TEXTURE;
 use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
 
 pub use labels::LabelPipelines;
+pub use occlusion::{OCCLUSION_FORMAT, OcclusionPipelines};
 pub use painter::PainterPipelines;
 
 /// Format of radiance targets.
@@ -33,6 +36,8 @@ pub struct Pipelines {
     pub globals_layout: wgpu::BindGroupLayout,
     /// Layout of a texture and its sampler: the water reflection, inputs of the `adapt` shader.
     pub sampled_layout: wgpu::BindGroupLayout,
+    /// Layout of the ambient occlusion that surfaces read.
+    pub occluded_layout: wgpu::BindGroupLayout,
     /// Layout of the `develop` shader's inputs.
     pub develop_layout: wgpu::BindGroupLayout,
     /// Layout of a shadow map's projection.
@@ -61,6 +66,8 @@ pub struct Pipelines {
     pub sky_mirrored: wgpu::RenderPipeline,
     /// Shadow map depth.
     pub shadow: wgpu::RenderPipeline,
+    /// Ambient occlusion, if the preset has it.
+    pub occlusion: Option<OcclusionPipelines>,
     /// Brightness of the picture's cells, then the base that local adaptation compresses.
     pub adapt: [wgpu::RenderPipeline; 2],
     /// Conversion of radiance to a picture, for eyes, for a camera, and for a camera over a weak video link.
@@ -195,7 +202,7 @@ fn layout(gpu: &Gpu, entries: &[(wgpu::ShaderStages, wgpu::BindingType)]) -> wgp
 const UNIFORM: wgpu::BindingType =
     wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
 
-fn texture_binding(sample_type: wgpu::TextureSampleType, array: bool, multisampled: bool) -> wgpu::BindingType {
+const fn texture_binding(sample_type: wgpu::TextureSampleType, array: bool, multisampled: bool) -> wgpu::BindingType {
     let view_dimension = if array { wgpu::TextureViewDimension::D2Array } else { wgpu::TextureViewDimension::D2 };
     wgpu::BindingType::Texture { sample_type, view_dimension, multisampled }
 }
@@ -209,6 +216,7 @@ fn module(gpu: &Gpu, name: &str) -> wgpu::ShaderModule {
 struct BindLayouts {
     globals: wgpu::BindGroupLayout,
     sampled: wgpu::BindGroupLayout,
+    occluded: wgpu::BindGroupLayout,
     develop: wgpu::BindGroupLayout,
     map: wgpu::BindGroupLayout,
 }
@@ -235,6 +243,7 @@ impl BindLayouts {
         Self {
             globals: layout(gpu, &globals),
             sampled: layout(gpu, &[(fragment, filtered), (fragment, smooth)]),
+            occluded: layout(gpu, &[(fragment, OCCLUSION_TEXTURE)]),
             develop: layout(
                 gpu,
                 &[(fragment, UNIFORM), (fragment, filtered), (fragment, smooth), (fragment, depth), (fragment, filtered)],
@@ -258,10 +267,11 @@ fn sampler(gpu: &Gpu, address: wgpu::AddressMode, compare: Option<wgpu::CompareF
 }
 
 /// Returns the override constants of a preset, and of scenes with rain or snow (common.wgsl).
-fn preset_constants(quality: &Quality, weathered: bool) -> [(&'static str, f64); 6] {
+fn preset_constants(quality: &Quality, weathered: bool) -> [(&'static str, f64); 7] {
     [
         ("CASCADES", f64::from(quality.cascades)),
         ("TAPS", f64::from(quality.shadow_taps)),
+        ("PENUMBRA", f64::from(u8::from(quality.penumbra))),
         ("LAMP_CASTS", f64::from(u8::from(quality.lamp_shadow))),
         ("MIRROR", f64::from(u8::from(quality.reflection > 0.0))),
         ("DETAIL", f64::from(u8::from(quality.smooth_noise))),
@@ -275,12 +285,18 @@ fn build_with_constants(gpu: &Gpu, kind: &PipelineKey, more: &[(&str, f64)]) -> 
     build_pipeline(gpu, &PipelineKey { constants: &constants, ..*kind })
 }
 
+/// Returns the override constant for surfaces that read the ambient occlusion (occluded.wgsl).
+fn occluded(quality: &Quality, mirrored: bool) -> (&'static str, f64) {
+    ("OCCLUDED", f64::from(u8::from(quality.occlusion_directions > 0 && !mirrored)))
+}
+
 /// Builds one pipeline per material group, without and with the lamp.
-fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: f64) -> [MaterialPipelines; 2] {
+fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: bool) -> [MaterialPipelines; 2] {
     by_lamp(quality, |lamp| {
         let of = |look: MaterialGroup| {
             let glossy = f64::from(u8::from(look.has_specular()));
-            let own = [("LOOK", f64::from(look as u32)), ("GLOSSY", glossy), ("MIRRORED", mirrored), lamp];
+            let mirror = ("MIRRORED", f64::from(u8::from(mirrored)));
+            let own = [("LOOK", f64::from(look as u32)), ("GLOSSY", glossy), mirror, occluded(quality, mirrored), lamp];
             (look, build_with_constants(gpu, kind, &own))
         };
         MaterialGroup::ALL.into_iter().map(of).collect()
@@ -341,8 +357,8 @@ fn develop(gpu: &Gpu, film: &PipelineKey) -> [wgpu::RenderPipeline; 3] {
 }
 
 /// Builds the pipeline that draws a kind of defect or stain.
-fn defect(gpu: &Gpu, flat: &PipelineKey, code: u32) -> (u32, wgpu::RenderPipeline) {
-    (code, build_with_constants(gpu, flat, &[("KIND", f64::from(code))]))
+fn defect(gpu: &Gpu, flat: &PipelineKey, quality: &Quality, code: u32) -> (u32, wgpu::RenderPipeline) {
+    (code, build_with_constants(gpu, flat, &[("KIND", f64::from(code)), occluded(quality, false)]))
 }
 
 impl Pipelines {
@@ -353,7 +369,7 @@ impl Pipelines {
             ["surface", "sky", "precipitation", "defect", "water", "shadow"].map(|name| module(gpu, name));
         let film_module = module(gpu, if quality.samples > 1 { shaders::DEVELOP_MULTISAMPLED } else { "develop" });
         let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
-        let globals = [Some(&layouts.globals)];
+        let (globals, of_surfaces) = ([Some(&layouts.globals)], [Some(&layouts.globals), Some(&layouts.occluded)]);
         let (solid_buffers, patch_buffers, water_buffers) =
             ([Some(corners()), Some(copies())], [Some(patches())], [Some(corners())]);
         let (lake_layouts, map_layouts, develop_layouts) =
@@ -362,7 +378,7 @@ impl Pipelines {
         let solid = PipelineKey {
             module: &surface,
             entries: ENTRY_POINTS,
-            layouts: &globals,
+            layouts: &of_surfaces,
             buffers: &solid_buffers,
             target: Some(RADIANCE_FORMAT),
             blend: None,
@@ -378,8 +394,9 @@ impl Pipelines {
         let lean = module(gpu, "lean");
         let shaded = if quality.lean { PipelineKey { module: &lean, entries: LEAN_ENTRY_POINTS, ..solid } } else { solid };
         let mirrored = PipelineKey { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };
-        let back = PipelineKey { module: &sky, buffers: &[], depth: shown, cull: None, ..solid };
-        let see_through = [preset_constants.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
+        let back = PipelineKey { module: &sky, layouts: &globals, buffers: &[], depth: shown, cull: None, ..solid };
+        let simple = ("LOOK", f64::from(MaterialGroup::Simple as u32));
+        let see_through = [preset_constants.as_slice(), &[simple, occluded(quality, false)]].concat();
         let translucent =
             PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
         // Biased toward the camera, so that defects appear in front of the surfaces that they are on.
@@ -401,15 +418,17 @@ impl Pipelines {
         let blur = [("BLUR", f64::from(u8::from(quality.blur_taps > 1)))];
         let film = full_screen_key(&solid, (&film_module, &develop_layouts), &blur);
         Self {
-            surfaces: surfaces(gpu, &shaded, quality, 0.0),
-            surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
+            surfaces: surfaces(gpu, &shaded, quality, false),
+            surfaces_mirrored: surfaces(gpu, &mirrored, quality, true),
             translucent: build_pipeline(gpu, &translucent),
-            defects: STAIN_CODES.into_iter().chain(defect_drawings()).map(|code| defect(gpu, &flat, code)).collect(),
+            defects: STAIN_CODES.into_iter().chain(defect_drawings()).map(|code| defect(gpu, &flat, quality, code)).collect(),
             water: lakes(gpu, &lake, quality),
             sky_mirrored: build_pipeline(gpu, &PipelineKey { samples: 1, ..back }),
             sky: build_pipeline(gpu, &back),
             precipitation: build_pipeline(gpu, &PipelineKey { module: &falling, blend: over, ..back }),
             shadow: build_pipeline(gpu, &dark),
+            occlusion: (quality.occlusion_directions > 0)
+                .then(|| OcclusionPipelines::new(gpu, &PipelineKey { layouts: &globals, ..solid }, quality.occlusion_directions)),
             adapt: adapt(gpu, &solid, &layouts.sampled),
             develop: develop(gpu, &film),
             smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),
@@ -417,6 +436,7 @@ impl Pipelines {
             compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(DEPTH_COMPARE), false),
             globals_layout: layouts.globals,
             sampled_layout: layouts.sampled,
+            occluded_layout: layouts.occluded,
             develop_layout: layouts.develop,
             map_layout: layouts.map,
         }

@@ -8,8 +8,8 @@ mod static_cells;
 use super::device::Gpu;
 use super::lru_cache::LruCache;
 use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, uniform, upload};
-use super::pipelines::{DEPTH_FORMAT, LabelPipelines, MaterialPipelines, Pipelines};
-use super::targets::{RenderTargets, noise_texture, photo_texture, tile_texture};
+use super::pipelines::{DEPTH_FORMAT, LabelPipelines, MaterialPipelines, OCCLUSION_FORMAT, Pipelines};
+use super::targets::{RenderTargets, bind_occlusion, noise_texture, photo_texture, texture, tile_texture};
 use super::uniforms::{DevelopUniforms, Globals, MAX_SHADOW_MAPS, ShadowMaps};
 use crate::cells::{self, CellBounds, Frustum};
 use crate::ground_photo::GroundColors;
@@ -64,6 +64,8 @@ pub struct Renderer {
     globals_mirrored: wgpu::Buffer,
     bound: wgpu::BindGroup,
     bound_mirrored: wgpu::BindGroup,
+    /// Bound where surfaces read no ambient occlusion.
+    not_occluded: wgpu::BindGroup,
     maps: Vec<(wgpu::TextureView, wgpu::Buffer, wgpu::BindGroup)>,
     site_map_sun_direction: Option<Vec3<Enu>>,
     targets: LruCache<(u32, u32), RenderTargets>,
@@ -123,6 +125,7 @@ impl Renderer {
             photo_half_m: scene.ground_colors.as_ref().map_or(0.0, GroundColors::half_m),
             bound,
             bound_mirrored,
+            not_occluded: bind_occlusion(gpu, &pipelines, &texture(gpu, (1, 1), OCCLUSION_FORMAT, 1)),
             maps: layers.map(|k| layer(gpu, &pipelines, &maps_texture, k)).collect(),
             globals,
             globals_mirrored,
@@ -175,6 +178,12 @@ impl Renderer {
         if self.quality.reflection > 0.0 && view.lake {
             let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &view);
             self.counts = self.counts.and(mirrored);
+        }
+        if let (Some(pipelines), Some(occlusion)) = (&self.pipelines.occlusion, &targets.occlusion) {
+            let mut counts = DrawCounts::default();
+            let draw_solids = |pass: &mut wgpu::RenderPass| self.draw_shapes(pass, &moving, &view, &mut counts);
+            occlusion.draw(gpu, &mut encoder, pipelines, shot, draw_solids);
+            self.counts = self.counts.and(counts);
         }
         let lit = self.draw_scene(&mut encoder, &targets, &moving, &view);
         self.counts = self.counts.and(lit);
@@ -254,6 +263,7 @@ impl Renderer {
         let mut counts = DrawCounts::default();
         let mut pass = begin(encoder, &targets.mirror, None, Some(&targets.mirror_depth));
         pass.set_bind_group(0, &self.bound_mirrored, &[]);
+        pass.set_bind_group(1, &self.not_occluded, &[]);
         self.draw_solids(
             &mut pass,
             &self.pipelines.surfaces_mirrored[view.lamp],
@@ -273,16 +283,10 @@ impl Renderer {
         pass: &mut wgpu::RenderPass,
         pipelines: &MaterialPipelines,
         (moving, shown): (&[(MoverModel, MeshInstances)], &Frustum),
-        (in_lake, eye_m): (bool, Vec3<Enu>),
+        place: (bool, Vec3<Enu>),
         counts: &mut DrawCounts,
     ) {
-        let shows = |fixed: &&StaticCell| {
-            shown.cell_may_be_visible(&fixed.bounds)
-                && fixed.visible_range.shows(in_lake, fixed.bounds.sphere.distance_to_m(eye_m))
-        };
-        let mut still: Vec<&StaticCell> = self.fixed.iter().filter(shows).collect();
-        // Draws front to back, so that hidden surfaces are not shaded.
-        still.sort_by(|a, b| a.bounds.sphere.distance_to_m(eye_m).total_cmp(&b.bounds.sphere.distance_to_m(eye_m)));
+        let still = self.visible_cells(shown, place);
         for (look, pipeline) in pipelines {
             pass.set_pipeline(pipeline);
             let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
@@ -292,6 +296,34 @@ impl Renderer {
                 }
             }
         }
+    }
+
+    /// Draws the shapes of all solids that are in the picture.
+    fn draw_shapes(
+        &self,
+        pass: &mut wgpu::RenderPass,
+        moving: &[(MoverModel, MeshInstances)],
+        view: &ShotView,
+        counts: &mut DrawCounts,
+    ) {
+        let shown = view.direct_view();
+        pass.set_bind_group(0, &self.bound, &[]);
+        let still = self.visible_cells(&shown, (false, view.eye_m)).into_iter().map(|fixed| (&*fixed.solid, &fixed.copies));
+        for (solid, copies) in solids(&self.models, moving).chain(still) {
+            count(counts, solid.triangles(), copies);
+            solid.draw(pass, copies);
+        }
+    }
+
+    /// Returns the static cells that may be visible, front to back, so that hidden surfaces are not shaded.
+    fn visible_cells(&self, shown: &Frustum, (in_lake, eye_m): (bool, Vec3<Enu>)) -> Vec<&StaticCell> {
+        let distance_m = |fixed: &StaticCell| fixed.bounds.sphere.distance_to_m(eye_m);
+        let shows = |fixed: &&StaticCell| {
+            shown.cell_may_be_visible(&fixed.bounds) && fixed.visible_range.shows(in_lake, distance_m(fixed))
+        };
+        let mut visible: Vec<&StaticCell> = self.fixed.iter().filter(shows).collect();
+        visible.sort_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
+        visible
     }
 
     /// Draws the defects, each with the pipeline for its kind.
@@ -317,8 +349,10 @@ impl Renderer {
     ) -> DrawCounts {
         let shown = view.direct_view();
         let mut counts = DrawCounts::default();
+        let occluded = targets.occluded.as_ref().unwrap_or(&self.not_occluded);
         let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
         pass.set_bind_group(0, &self.bound, &[]);
+        pass.set_bind_group(1, occluded, &[]);
         self.draw_solids(&mut pass, &self.pipelines.surfaces[view.lamp], (moving, &shown), (false, view.eye_m), &mut counts);
         let patches = self.draw_patches(&mut pass, &self.pipelines.defects);
         counts = counts.and(patches);
@@ -334,6 +368,7 @@ impl Renderer {
         pass.draw(0..3, 0..1);
         counts.draw_calls += 1;
         pass.set_pipeline(&self.pipelines.translucent);
+        pass.set_bind_group(1, occluded, &[]);
         for (model, copies) in moving.iter().filter(|(model, _)| model.is_translucent()) {
             let Some(Some(solid)) = self.models.get(model.index()) else { continue };
             count(&mut counts, solid.triangles(), copies);

@@ -1,6 +1,7 @@
 //! Render targets for one picture size.
 
 use super::device::Gpu;
+use super::occlusion::OcclusionTargets;
 use super::pass::uniform;
 use super::pipelines::{ADAPTATION_FORMAT, DEPTH_FORMAT, Pipelines, RADIANCE_FORMAT};
 use crate::ground_photo::GroundColors;
@@ -22,6 +23,10 @@ pub struct RenderTargets {
     pub mirror: wgpu::TextureView,
     /// Depth buffer of the water reflection.
     pub mirror_depth: wgpu::TextureView,
+    /// Targets of the ambient occlusion, if the preset has it.
+    pub occlusion: Option<OcclusionTargets>,
+    /// Bind group of the ambient occlusion that surfaces read; `None` without it.
+    pub occluded: Option<wgpu::BindGroup>,
     /// Bind group of the `water` shader.
     pub water: wgpu::BindGroup,
     /// Targets of the passes of the `adapt` shader, each with the bind group of its input.
@@ -84,10 +89,21 @@ impl RenderTargets {
                 entry(4, view(&fitted)),
             ],
         });
+        let occlusion = pipelines.occlusion.as_ref().map(|pipelines| OcclusionTargets::new(gpu, pipelines, size));
+        let occluded = occlusion.as_ref().map(|targets| bind_occlusion(gpu, pipelines, targets.result()));
         let (of_radiance, of_measured) = (sampled(radiance), sampled(&measured));
         let adapt = [(measured, of_radiance), (fitted, of_measured)];
-        Self { light, resolved, depth, mirror, mirror_depth, water, adapt, develop, develop_data }
+        Self { light, resolved, depth, mirror, mirror_depth, occlusion, occluded, water, adapt, develop, develop_data }
     }
+}
+
+/// Binds the ambient occlusion for the shaders of surfaces.
+pub fn bind_occlusion(gpu: &Gpu, pipelines: &Pipelines, occlusion: &wgpu::TextureView) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("occluded"),
+        layout: &pipelines.occluded_layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(occlusion) }],
+    })
 }
 
 /// Creates the noise texture.

@@ -1,5 +1,6 @@
 //! Uniform structures, with the layouts declared in the shaders (common.wgsl, develop.wgsl).
 
+use super::super::camera::NEAR_PLANE_M;
 use super::super::matrix::Matrix;
 use super::super::noise::CELLS;
 use super::super::quality::Quality;
@@ -41,6 +42,14 @@ pub struct Globals {
     trees: [f32; 4],
     weather: [f32; 4],
     open: [f32; 4],
+}
+
+/// Uniforms of the `Occlusion` shader structure.
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub struct OcclusionUniforms {
+    lens: [f32; 4],
+    size: [f32; 4],
 }
 
 /// Uniforms of the `DevelopUniforms` shader structure.
@@ -119,6 +128,15 @@ impl Globals {
             weather: [weather.wetness(), weather.snow_cover(), weather.rain_mm_h, weather.snow_mm_h].map(|value| value as f32),
             open: weather.open.map(|share| share as f32),
         }
+    }
+}
+
+impl OcclusionUniforms {
+    /// Returns the uniforms of a shot.
+    pub fn new(shot: &Shot) -> Self {
+        let (half_w, half_h) = shot.eye.half_extents(shot.aspect());
+        let (width, height) = shot.size_px;
+        Self { lens: [half_w as f32, half_h as f32, NEAR_PLANE_M as f32, 0.0], size: [width as f32, height as f32, 0.0, 0.0] }
     }
 }
 

@@ -8,6 +8,8 @@ diagnostic(off, derivative_uniformity);
 // reflection.
 override CASCADES: u32 = 4u;
 override TAPS: u32 = 3u;
+// Whether shadows of the sun have penumbras.
+override PENUMBRA: bool = false;
 override LAMP_CASTS: bool = true;
 override MIRROR: bool = true;
 // Expensive small details: light ripples and the finest waves.
@@ -192,6 +194,55 @@ fn in_map(layer: i32, p: vec3<f32>) -> vec4<f32> {
     return vec4<f32>(q, select(0.0, 1.0, inside));
 }
 
+// Width of the sun's disk, rad: the penumbra of an edge is this wide at a distance of 1 m.
+const SUN_RAD: f32 = 0.0093;
+// Distance of the farthest caster whose penumbra is drawn in full, m (estimate: the height of a high deck).
+const MAX_CASTER_M: f32 = 60.0;
+const SEARCHES: u32 = 12u;
+const DISK_TAPS: u32 = 24u;
+
+// Offset of a sample in a disk of radius 1, evenly spread.
+fn disk(k: u32, count: u32, turn: f32) -> vec2<f32> {
+    let angle = f32(k) * 2.39996323 + turn;
+    return sqrt((f32(k) + 0.5) / f32(count)) * vec2<f32>(cos(angle), sin(angle));
+}
+
+// Share of the sun's disk that a place sees (Fernando 2005, "Percentage-Closer Soft Shadows"): the mean distance of the casters around it
+// determines the width of the penumbra.
+fn disk_visible(layer: i32, q: vec3<f32>, n: vec3<f32>) -> f32 {
+    let side = f32(textureDimensions(shadow_map).x);
+    let projection = g.shadow_proj[layer];
+    let depth_per_m = length(vec3<f32>(projection[0].z, projection[1].z, projection[2].z));
+    let right = normalize(vec3<f32>(projection[0].x, projection[1].x, projection[2].x));
+    let up = normalize(vec3<f32>(projection[0].y, projection[1].y, projection[2].y));
+    // The surface rises towards the sun across the disk, and must not shade itself.
+    let slope = -vec2<f32>(dot(n, right), dot(n, up)) / max(dot(n, g.sun.xyz), 0.15) * depth_per_m;
+    let uv = vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
+    let turn = 6.2831853 * hash2(vec2<i32>(uv * side));
+    let texel_m = g.texel[layer];
+    let search_m = max(0.5 * SUN_RAD * MAX_CASTER_M, 1.5 * texel_m);
+    let flip = vec2<f32>(1.0, -1.0) / (side * texel_m);
+    var casters = vec2<f32>(0.0);
+    for (var k = 0u; k < SEARCHES; k++) {
+        let at_m = disk(k, SEARCHES, turn) * search_m;
+        let texel = vec2<i32>((uv + at_m * flip) * side);
+        let above = textureLoad(shadow_map, clamp(texel, vec2<i32>(0), vec2<i32>(i32(side) - 1)), layer, 0) - (q.z + dot(slope, at_m));
+        if above > 0.02 * depth_per_m {
+            casters += vec2<f32>(above / depth_per_m, 1.0);
+        }
+    }
+    if casters.y < 0.5 {
+        return 1.0;
+    }
+    let radius_m = clamp(0.5 * SUN_RAD * casters.x / casters.y, texel_m, search_m);
+    var sum = 0.0;
+    for (var k = 0u; k < DISK_TAPS; k++) {
+        let at_m = disk(k, DISK_TAPS, turn) * radius_m;
+        sum += shadow_compare(layer, uv + at_m * flip, q.z + dot(slope, at_m));
+    }
+    return sum / f32(DISK_TAPS);
+}
+
 fn sun_visible(p: vec3<f32>, n: vec3<f32>) -> f32 {
     if g.sun.w <= 0.0 {
         return 0.0;
@@ -218,6 +269,9 @@ fn sun_visible(p: vec3<f32>, n: vec3<f32>) -> f32 {
     }
     if q.w < 0.5 {
         return 1.0;
+    }
+    if PENUMBRA {
+        return disk_visible(layer, q.xyz, n);
     }
     return map_visible(layer, q.xyz);
 }

@@ -629,6 +629,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     if look.alpha <= 0.002 {
         discard;
     }
+    look.matter.light *= ambient_share(in.clip.xy);
     let alpha = clamp(look.alpha, 0.0, 1.0);
     return vec4<f32>(exposed(shade(look.matter, in.p)).rgb * alpha, alpha);
 }

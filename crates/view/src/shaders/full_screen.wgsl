@@ -1,4 +1,4 @@
-// A triangle that covers the picture, and the brightness of radiance: shared by adapt.wgsl and develop.wgsl.
+// A triangle that covers the picture, and the brightness of radiance: shared by adapt.wgsl, develop.wgsl and occlusion.wgsl.
 
 struct Fragment {
     @builtin(position) clip: vec4<f32>,

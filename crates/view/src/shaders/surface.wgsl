@@ -427,6 +427,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     if WEATHERED {
         m.roughness = mix(m.roughness, 0.35, 0.7 * g.weather.x * clamp(n.z, 0.0, 1.0) * smoothstep(0.4, 0.75, m.light.x) * (1.0 - g.weather.y));
     }
+    m.light *= ambient_share(in.clip.xy);
     let lit = exposed(shade(m, in.p));
     if LOOK == 3u {
         if in.material == 12u {

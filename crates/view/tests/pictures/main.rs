@@ -10,6 +10,7 @@ mod contrast;
 mod exposure;
 mod flight_states;
 mod gallery;
+mod light;
 mod masks;
 mod pages;
 mod snapshots;

@@ -3,11 +3,6 @@
 (function () {
   'use strict';
   const { byId, all, clock, number, color } = Flight;
-  const print = byId('print');
-  if (print) {
-    print.hidden = false;
-    print.addEventListener('click', () => window.print());
-  }
   const block = byId('flight-data');
   if (!block) return;
   const data = JSON.parse(block.textContent);
@@ -19,7 +14,8 @@
   let now = 0;
   const listeners = [];
 
-  const taskName = (i) => (s.task[i] === null ? '–' : data.tasks[s.task[i]].id + ' · ' + data.tasks[s.task[i]].name);
+  // Frames between tasks count towards the nearest task, which nobody flies there.
+  const taskName = (i) => (s.task[i] === null || s.state[i] === 0 ? '–' : data.tasks[s.task[i]].id + ' · ' + data.tasks[s.task[i]].name);
   const pathWords = (i) => texts.states[s.state[i]];
   // Names may contain a dollar sign, which has a meaning in replacement texts.
   const sliderWords = (i) => texts.slider.replace('%moment', clock(s.t[i])).replace('%path', pathWords(i)).replace('%task', () => taskName(i));

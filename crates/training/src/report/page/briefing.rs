@@ -4,7 +4,7 @@
 use super::super::formatting;
 use super::super::plots::job::{job_plan, job_side, job_south};
 use super::figure::{SLOT, filled};
-use super::{PageScripts, document};
+use super::{PageScripts, document, print_button};
 use crate::briefing::{Briefing, TaskBriefing};
 use maud::{Markup, html};
 use spandrel_model::scenario::{BriefingPicture, Scenario};
@@ -23,10 +23,11 @@ pub fn briefing(
     let title = text!(language, "report-briefing-title", title = briefing.title.as_str());
     let lead = text!(language, "report-briefing-lead", job = SLOT);
     let body = html! {
+        (print_button(language))
         header { h1 { (briefing.title) } p.lead { (filled(&lead, &html! { code { (briefing.job) } })) } }
         main { (contents(briefing, (scenario, site), pictures, language)) }
     };
-    document(language, &title, &PageScripts::None, &body)
+    document(language, &title, &PageScripts::Print, &body)
 }
 
 /// Renders the sections of the briefing, for a document or a page of the web server.

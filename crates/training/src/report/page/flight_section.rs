@@ -129,7 +129,10 @@ fn controls(review: &Review) -> Markup {
     }
 }
 
-/// Renders the video beside the report. The slider moves it, and while it plays, it moves the slider.
+/// How the video's element begins, up to its address.
+pub const VIDEO_SOURCE: &str = "<video id=\"video\" src=\"";
+
+/// Renders the video beside the report, beginning with [`VIDEO_SOURCE`]. The slider moves it, and while it plays, it moves the slider.
 fn video(review: &Review) -> Markup {
     let language = review.metadata.language;
     let missing = text!(language, "report-flight-video-missing", file = SLOT);

@@ -25,6 +25,7 @@ pub mod within_error;
 
 pub use briefing::{briefing, contents as briefing_contents, figure as briefing_picture};
 pub use compare::comparison;
+pub use flight_section::VIDEO_SOURCE;
 
 use super::Review;
 use super::assets;
@@ -65,8 +66,7 @@ pub fn session(review: &Review) -> String {
             (summary::header(review))
             nav aria-label=(text!(language, "report-sections")) {
                 @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } }
-                // Works only with scripts, which show it.
-                button type="button" id="print" hidden { (text!(language, "report-print")) }
+                (print_button(language))
             }
             main {
                 @for (id, name, body) in &sections {
@@ -81,6 +81,8 @@ pub fn session(review: &Review) -> String {
 enum PageScripts {
     /// The page is static.
     None,
+    /// Only its print button.
+    Print,
     /// Slider, charts and 3D view of a session.
     Session {
         /// Embedded data.
@@ -114,11 +116,12 @@ fn document(language: Language, title: &str, moves: &PageScripts, body: &Markup)
                 (body)
                 @match moves {
                     PageScripts::None => {}
+                    PageScripts::Print => { (scripts(&[assets::PRINT_SCRIPT])) }
                     PageScripts::Session { data, .. } => {
                         script type="application/json" id="flight-data" { (PreEscaped(data)) }
                         script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE_SCRIPT)) }
                         script type="text/plain" id="three-module" data-core=(assets::THREE_CORE_NAME) { (PreEscaped(assets::THREE_SCRIPT)) }
-                        (scripts(&[assets::UPLOT_SCRIPT, assets::COMMON_SCRIPT, assets::SCRIPT]))
+                        (scripts(&[assets::UPLOT_SCRIPT, assets::COMMON_SCRIPT, assets::SCRIPT, assets::PRINT_SCRIPT]))
                     }
                     PageScripts::Comparison(data) => {
                         script type="application/json" id="comparison-data" { (PreEscaped(data)) }
@@ -129,6 +132,12 @@ fn document(language: Language, title: &str, moves: &PageScripts, body: &Markup)
         }
     }
     .into_string()
+}
+
+/// Renders the button that prints the page. Its script shows it.
+#[must_use]
+pub fn print_button(language: Language) -> Markup {
+    html! { button type="button" id="print" hidden { (text!(language, "report-print")) } }
 }
 
 fn scripts(texts: &[&str]) -> Markup {

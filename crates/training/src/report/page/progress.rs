@@ -11,7 +11,7 @@ use crate::report::plots::bars::{CountRow, counts};
 use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::plots::lines::{ChartLine, color_number, lines};
 use crate::report::table::{Table, TableCell, folded};
-use crate::terms::score_title;
+use crate::terms::{score_title, task_titles};
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -33,13 +33,14 @@ pub fn job_progress(job: &JobProgress, language: Language) -> Markup {
     if progress.repetitions.is_empty() {
         return left_out;
     }
+    let tasks = |language| task_titles(&job.scenario, &job.tasks, language);
     html! {
         (left_out)
-        (progress_figures(progress, &job.tasks, language))
+        (progress_figures(progress, &tasks(language), language))
         @if !progress.curves.is_empty() { (learning(progress, language)) }
         (folded(language, |language| changes(progress, &job.reliability, language)))
         (folded(language, |language| numbers(&job.scenario, progress, language)))
-        @if !job.tasks.is_empty() { (folded(language, |language| on_path_table(progress, &job.tasks, language))) }
+        @if !job.tasks.is_empty() { (folded(language, |language| on_path_table(progress, &tasks(language), language))) }
     }
 }
 

@@ -16,16 +16,16 @@ pub struct LabelPipelines {
 }
 
 impl LabelPipelines {
-    /// Compiles the pipelines for the globals' existing bind group layout.
-    pub fn new(gpu: &Gpu, globals_layout: &wgpu::BindGroupLayout) -> Self {
+    /// Compiles the pipelines for the existing layouts of the globals and the ambient occlusion.
+    pub fn new(gpu: &Gpu, layouts: [&wgpu::BindGroupLayout; 2]) -> Self {
         let [surface, defect] = ["surface", "defect"].map(|name| module(gpu, name));
-        let globals = [Some(globals_layout)];
+        let layouts = layouts.map(Some);
         let (solids, of_patches) = ([Some(corners()), Some(copies())], [Some(patches())]);
         let constants = [("MASK", 1.0)];
         let solid = PipelineKey {
             module: &surface,
             entries: ENTRY_POINTS,
-            layouts: &globals,
+            layouts: &layouts,
             buffers: &solids,
             target: Some(RADIANCE_FORMAT),
             blend: None,

@@ -23,7 +23,10 @@ impl Renderer {
         gpu.check_size(shot.size_px)?;
         let globals = Globals::new(shot, (self.water_m, self.photo_half_m), &ShadowMaps { sun: &[], lamp: None }, false);
         gpu.queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
-        let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.pipelines.globals_layout));
+        let pipelines = self
+            .labels
+            .take()
+            .unwrap_or_else(|| LabelPipelines::new(gpu, [&self.pipelines.globals_layout, &self.pipelines.occluded_layout]));
         let target = color_texture(gpu, shot.size_px, (RADIANCE_FORMAT, wgpu::TextureUsages::COPY_SRC));
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.draw_labels(gpu, &mut encoder, &pipelines, shot, &target);
@@ -46,6 +49,7 @@ impl Renderer {
         let depth = texture(gpu, shot.size_px, DEPTH_FORMAT, 1);
         let mut pass = begin(encoder, &view, None, Some(&depth));
         pass.set_bind_group(0, &self.bound, &[]);
+        pass.set_bind_group(1, &self.not_occluded, &[]);
         pass.set_pipeline(&pipelines.solid);
         let still = self
             .fixed

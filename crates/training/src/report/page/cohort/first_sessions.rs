@@ -9,7 +9,7 @@ use crate::record::SessionOutcome;
 use crate::report::plots::bars::{CountRow, ShareRow, counts, shares};
 use crate::report::plots::histogram::histogram;
 use crate::report::table::{Table, TableCell, shown};
-use crate::terms::score_title;
+use crate::terms::{score_title, task_title};
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -73,6 +73,7 @@ fn individual_results(cohort: &Cohort, language: Language) -> Markup {
             placeholder: one.tasks.is_empty().then(|| text!(language, "cohort-no-tasks")),
         })
         .collect();
+    let job = cohort.scenarios.first().map_or("", String::as_str);
     let key: Vec<(&str, String)> = cohort
         .individuals
         .first()
@@ -80,7 +81,7 @@ fn individual_results(cohort: &Cohort, language: Language) -> Markup {
             one.tasks
                 .iter()
                 .zip(["dot-1", "dot-2", "dot-3", "dot-4"].iter().cycle())
-                .map(|(task, class)| (*class, format!("{} · {}", task.id, task.name)))
+                .map(|(task, class)| (*class, format!("{} · {}", task.id, task_title(job, &task.name, language))))
                 .collect()
         })
         .unwrap_or_default();

@@ -7,7 +7,7 @@ use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
 use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::table::{Table, TableCell, shown};
 use crate::statistics::LearningCurve;
-use crate::terms::score_title;
+use crate::terms::{score_title, task_titles};
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -97,7 +97,7 @@ pub fn individual_results(cohort: &Cohort, language: Language) -> Markup {
             @for one in repeated {
                 details.numbers {
                     summary { (text!(language, "cohort-individual", trainee = one.trainee.as_str(), count = one.repetitions.len())) }
-                    (progress_figures(one, &tasks(cohort, one), language))
+                    (progress_figures(one, &tasks(cohort, one, language), language))
                 }
             }
         }
@@ -109,8 +109,10 @@ pub fn repeat_trainees(cohort: &Cohort) -> impl Iterator<Item = &TraineeProgress
     cohort.progress.iter().filter(|one| one.repetitions.len() > 1)
 }
 
-/// Returns the task numbers and names from the trainee's first session.
-fn tasks(cohort: &Cohort, one: &TraineeProgress) -> Vec<(u32, String)> {
+/// Returns the task numbers and titles from the trainee's first session.
+fn tasks(cohort: &Cohort, one: &TraineeProgress, language: Language) -> Vec<(u32, String)> {
     let first = cohort.individuals.iter().find(|first| first.trainee == one.trainee);
-    first.map(|first| first.tasks.iter().map(|task| (task.id, task.name.clone())).collect()).unwrap_or_default()
+    let tasks: Vec<(u32, String)> =
+        first.into_iter().flat_map(|first| &first.tasks).map(|task| (task.id, task.name.clone())).collect();
+    cohort.scenarios.first().map_or_else(Vec::new, |job| task_titles(job, &tasks, language))
 }

@@ -1,5 +1,7 @@
-//! Links from a report to the server's pages. Only the server adds them: a report that is opened from disk has no such pages.
+//! What the server changes in a report: links to its own pages, and the address of the video. A report that is opened from disk has no
+//! such pages, and its video is beside it.
 
+use crate::report::page::VIDEO_SOURCE;
 use maud::html;
 use spandrel_text::{Language, text};
 
@@ -40,6 +42,15 @@ pub fn with_back_links(page: Vec<u8>, parents: &[ParentPage<'_>], language: Lang
     [head, links(parents, language).as_bytes(), content].concat()
 }
 
+/// Returns a report page that loads its video from this address, and unchanged if it has none.
+#[must_use]
+pub fn with_video_address(page: Vec<u8>, address: &str) -> Vec<u8> {
+    let Some(start) = end_of(&page, VIDEO_SOURCE.as_bytes()) else { return page };
+    let (head, rest) = page.split_at(start);
+    let end = rest.iter().position(|byte| *byte == b'"').unwrap_or(0);
+    [head, address.as_bytes(), &rest[end..]].concat()
+}
+
 /// Returns the position after the first occurrence of a tag.
 fn end_of(text: &[u8], tag: &[u8]) -> Option<usize> {
     Some(text.windows(tag.len()).position(|bytes| bytes == tag)? + tag.len())
@@ -57,6 +68,13 @@ fn links(parents: &[ParentPage<'_>], language: Language) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_video_of_served_report_has_another_address() {
+        let page = |source: &str| format!("<body><video id=\"video\" src=\"{source}\" controls></video></body>").into_bytes();
+        assert_eq!(with_video_address(page("video.mp4"), "/sessions/a/key"), page("/sessions/a/key"));
+        assert_eq!(with_video_address(b"<body></body>".to_vec(), "/sessions/a/key"), b"<body></body>");
+    }
 
     #[test]
     fn regress_served_report_links_to_its_session_and_the_list() {

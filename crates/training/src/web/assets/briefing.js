@@ -1,5 +1,0 @@
-// Prints the briefing. Without this script, users print with their browser's menu.
-"use strict";
-const print = document.getElementById("print");
-print.hidden = false;
-print.addEventListener("click", () => window.print());
