@@ -3,7 +3,7 @@
 use super::hud::{GnssStatus, UNKNOWN_MODE};
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
-use spandrel_mavlink::contract::cue::CueTexts;
+use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_mavlink::contract::guidance::{self, Guidance};
 use spandrel_mavlink::contract::hazards::{self, HazardReport, RadioMargins};
 use spandrel_mavlink::contract::lesson::{self, LessonStatus};
@@ -205,6 +205,24 @@ impl Feed {
         self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUE_TIMEOUT).map_or(0, |(_, mask)| mask)
     }
 
+    /// Returns the monitor's texts for the active cues with the distances as they are now: the monitor repeats its texts only after seconds.
+    #[must_use]
+    pub fn current_cue_texts(&self, now: SimTime) -> CueTexts {
+        let guidance = self.guidance(now);
+        let distances = [
+            (cue::TOO_CLOSE, self.clearance_m(now)),
+            (cue::STAND_OFF, guidance.and_then(|guidance| guidance.stand_off).map(|reading| reading.actual_m)),
+            (cue::OFF_PATH, guidance.and_then(|guidance| guidance.deviation).map(|deviation| deviation.distance_m)),
+        ];
+        let mut texts = self.cue_texts.clone();
+        for (bit, distance_m) in distances {
+            if let Some(distance_m) = distance_m {
+                texts.set_value(bit, &format!("{distance_m:.1}"));
+            }
+        }
+        texts
+    }
+
     /// Returns the monitor's texts for the active cues.
     #[must_use]
     pub fn cue_texts(&self) -> &CueTexts {
@@ -244,7 +262,6 @@ pub fn shutter(taken: Option<SimTime>, now: SimTime) -> bool {
 mod tests {
     use super::*;
     use spandrel_mavlink::codec::Encoder;
-    use spandrel_mavlink::contract::cue;
     use spandrel_mavlink::dialect::{GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, NAMED_VALUE_INT_DATA};
     use spandrel_model::radio::RadioWay;
 
@@ -269,6 +286,21 @@ mod tests {
         assert_eq!(feed.cue_texts().text(cue::CRASH), Some("Crash: bridge member arch/rib-left/07"));
         feed.set_cues(cue::OFF_PATH, now);
         assert_eq!(feed.cue_texts().text(cue::CRASH), Some("Crash"), "the text of an old crash is not shown again");
+    }
+
+    #[test]
+    fn exact_distances_in_the_texts_are_those_of_now() {
+        let now = SimTime::from_ms(5_000);
+        let mut feed = Feed::default();
+        feed.set_cues(cue::TOO_CLOSE | cue::OFF_PATH, now);
+        feed.handle_text("Too close: 2.48 m, limit 2.5 m");
+        feed.handle_text("Off path 3.1 m: left");
+        feed.handle_datagram(&Encoder::new(1, 1).encode(&NamedValue::ClearanceM(1.62).message(5_000)), now);
+        let texts = feed.current_cue_texts(now);
+        assert_eq!(texts.text(cue::TOO_CLOSE), Some("Too close: 1.6 m, limit 2.5 m"));
+        assert_eq!(texts.text(cue::OFF_PATH), Some("Off path 3.1 m: left"), "no newer value is known");
+        let later = feed.current_cue_texts(now + OBSTACLE_TIMEOUT + SimTime::from_ms(1));
+        assert_eq!(later.text(cue::TOO_CLOSE), Some("Too close: 2.48 m, limit 2.5 m"));
     }
 
     #[test]

@@ -295,7 +295,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         min_green_pct: scenario.feedback.battery_green_pct,
         min_yellow_pct: scenario.feedback.battery_yellow_pct,
         cues: feed.cues(at, held),
-        cue_texts: feed.cue_texts().clone(),
+        cue_texts: feed.current_cue_texts(at),
         height_m: from_pad.up(),
         home_distance_m: from_pad.horizontal_norm(),
         mode: feed.mode().to_owned(),

@@ -77,6 +77,14 @@ impl CueTexts {
         }
     }
 
+    /// Replaces the measured value in a cue's text, which is its first number.
+    pub fn set_value(&mut self, bit: i32, value: &str) {
+        let Some((_, text)) = self.texts.iter_mut().find(|(bits, _)| bit & bits != 0) else { return };
+        let Some(start) = text.find(|sign: char| sign.is_ascii_digit()) else { return };
+        let length = text[start..].find(|sign: char| !sign.is_ascii_digit() && sign != '.').unwrap_or(text.len() - start);
+        text.replace_range(start..start + length, value);
+    }
+
     /// Removes the texts of cues that are no longer active.
     pub fn retain_active(&mut self, mask: i32) {
         self.texts.retain(|(bits, _)| mask & bits != 0);
@@ -124,6 +132,21 @@ mod tests {
         assert_eq!(texts.text(TOO_CLOSE), Some("Too close: 2.1 m, limit 2.5 m"));
         texts.retain_active(CRASH);
         assert_eq!((texts.text(TOO_CLOSE), texts.text(1 << 20)), (Some("Too close"), None));
+    }
+
+    #[test]
+    fn exact_the_measured_value_of_a_text_can_be_replaced() {
+        let mut texts: CueTexts =
+            ["Too close: 2.48 m, limit 2.5 m", "Stand-off too large: 8.9 m, recommended 4.5 m", "Crash: bridge"]
+                .into_iter()
+                .collect();
+        texts.set_value(TOO_CLOSE, "1.6");
+        texts.set_value(STAND_OFF, "10.2");
+        texts.set_value(CRASH, "3");
+        texts.set_value(OFF_PATH, "3");
+        assert_eq!(texts.text(TOO_CLOSE), Some("Too close: 1.6 m, limit 2.5 m"));
+        assert_eq!(texts.text(STAND_OFF), Some("Stand-off too large: 10.2 m, recommended 4.5 m"));
+        assert_eq!((texts.text(CRASH), texts.text(OFF_PATH)), (Some("Crash: bridge"), Some("Off path")));
     }
 
     #[test]

@@ -415,7 +415,7 @@ fn regress_latest_session_counts_for_the_rules_even_if_incomplete() {
     assert!(note.contains("Incomplete: 0 of 4 tasks, 15% of the path"), "{note}");
     assert_eq!(without.changes, None, "an incomplete session is not compared");
     let skipped = reason_of(&without, "several tasks not attempted").unwrap().1;
-    assert_eq!(skipped.words, "3 of 4 tasks were not flown. The practice job is shorter: fly every task to its end.");
+    assert_eq!(skipped.words, "3 of 4 tasks were not flown. The practice job has short paths: fly every task to its end.");
     let with = of(&records, IncompletePolicy::Include);
     assert_eq!((with.session.as_str(), with.left_out, &with.note), ("session-anna-003", 0, &None));
     assert!(with.changes.is_some());

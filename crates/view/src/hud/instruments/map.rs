@@ -16,6 +16,8 @@ use spandrel_text::text;
 
 /// Size of the aircraft with its outline, in font sizes.
 const ARROW_SIZE: f64 = 1.15;
+/// Width of the line from a number to its place, in font sizes.
+const LEADER_WIDTH: f64 = 0.12;
 /// Largest share of the map's width for the scale.
 const MAX_SCALE_SHARE: f64 = 0.35;
 /// Lengths of the scale, in units of length.
@@ -142,9 +144,10 @@ impl Paths<'_> {
         others.into_iter().chain(current).map(line).collect()
     }
 
-    /// Returns the tasks' numbers beside the starts of their paths. Adds their places to those that labels take.
+    /// Returns the tasks' numbers beside the starts of their paths, each with a line to its start, because a number that finds no room
+    /// there may be nearer to another start. Adds their places to those that labels take.
     pub fn numbers(&self, pane: Pane, area: Area, font: f64, taken: &mut Vec<Point>) -> Vec<DrawItem> {
-        let mut items = Vec::new();
+        let (mut items, mut signs) = (Vec::new(), Vec::new());
         for track in self.tracks {
             let Some(start_m) = track.path_m.first() else { continue };
             let start = (self.place)(*start_m);
@@ -153,10 +156,12 @@ impl Paths<'_> {
             let is_current = Some(track.id) == self.current;
             let (ground, color) =
                 if is_current { (HudColor::Yellow, HudColor::Black) } else { (HudColor::Black, HudColor::White) };
-            items.push(disc(pane, label, 0.62 * font, ground));
-            items.push(pane.text(label, TextAlign::Center, 0.9 * font, color, track.id.to_string()));
+            items.push(pane.line(&[clamp_point(start, area), label], LEADER_WIDTH * font, ground));
+            signs.push(disc(pane, label, 0.62 * font, ground));
+            signs.push(pane.text(label, TextAlign::Center, 0.9 * font, color, track.id.to_string()));
             taken.push(label);
         }
+        items.append(&mut signs);
         items
     }
 
@@ -201,6 +206,7 @@ pub(super) fn inspector(
             items.push(square(pane, clamp_point(here, area.inside(0.5 * font)), 0.3 * font, HudColor::Gray));
             continue;
         };
+        items.push(pane.line(&[clamp_point(here, area), label], LEADER_WIDTH * font, HudColor::Gray));
         items.push(square(pane, label, 0.58 * font, HudColor::Gray));
         items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::Black, number.to_string()));
         taken.push(label);
