@@ -73,6 +73,9 @@ fn pairs(scenario: &Scenario) -> Vec<Pair> {
     convex.filter_map(pair).collect()
 }
 
+/// A query about a member from a point in a direction.
+type Query<'a> = &'a dyn Fn(&Pair, Vec3<Enu>, Vec3<Enu>) -> f64;
+
 /// Prints the largest difference of the signed distances and of the first hits, and the time of a query.
 fn compare_queries(pairs: &[Pair]) {
     let count = (pairs.len() * QUERY_COUNT) as f64;
@@ -99,7 +102,7 @@ fn compare_queries(pairs: &[Pair]) {
     }
     println!("{} convex members, {QUERY_COUNT} points and rays each", pairs.len());
     println!("  largest difference of the distances {distance_m:.1e} m; of {hits} hits {hit_m:.1e} m; hit by one only: {missed}");
-    let time = |ask: &dyn Fn(&Pair, Vec3<Enu>, Vec3<Enu>) -> f64| {
+    let time = |ask: Query| {
         let all =
             || pairs.iter().map(|pair| pair.points.iter().zip(&pair.directions).map(|(p, d)| ask(pair, *p, *d)).sum::<f64>());
         best(ROUNDS, || black_box(all().sum::<f64>())).as_secs_f64() * 1e9 / count

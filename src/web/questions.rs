@@ -50,7 +50,7 @@ fn language_tags(state: &ServerState) -> String {
     state.languages.all().iter().map(|wording| wording.language.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the tasks with their titles in the language of a wording; their own names if the product is not in it.
+/// Returns the tasks with their titles in the language of a wording; their own names if Spandrel has no such language.
 fn task_names(scenario: &Scenario, wording: &Wording) -> Vec<(u32, String)> {
     let language = Language::from_tag(&wording.language).unwrap_or_default();
     scenario.tasks.iter().map(|task| (task.id, task_title(&scenario.name, &task.name, language))).collect()

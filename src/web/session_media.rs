@@ -6,8 +6,6 @@ use super::sessions::folder;
 use super::state::ServerState;
 use crate::io::report::photograph_path;
 use spandrel_monitor::folder::{SNAPSHOTS, VIDEO};
-use spandrel_training::web::access::Visitor;
-use spandrel_training::web::browser_sessions::file_key;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
@@ -18,11 +16,6 @@ const MAX_PART_BYTES: u64 = 2 * 1024 * 1024;
 /// Responds with a session's video, or the requested part of it.
 pub fn video(state: &ServerState, request: &WebRequest) -> HandlerResult {
     video_part(&folder(state, request, request.path_param("id"))?.join(VIDEO), request)
-}
-
-/// Returns the address of a session's video for its report, which is sandboxed and therefore cannot send the visitor's cookie.
-pub fn report_video_address(visitor: &Visitor, id: &str) -> String {
-    format!("/sessions/{id}/report/{}/{VIDEO}", file_key(&visitor.token, id))
 }
 
 /// Responds with a session's video to the report of a visitor who may see the session.

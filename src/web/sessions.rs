@@ -2,7 +2,6 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
-use super::session_media::report_video_address;
 use super::state::ServerState;
 use crate::io::marks::valid_marks;
 use crate::io::report;
@@ -17,6 +16,7 @@ use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
 use spandrel_training::report::page::MARKS_META_NAME;
 use spandrel_training::standing::standing;
+use spandrel_training::web::browser_sessions::file_key;
 use spandrel_training::web::served_report::{ParentPage, with_back_links, with_video_address};
 use spandrel_training::web::sessions as pages;
 use std::path::{Path, PathBuf};
@@ -112,9 +112,15 @@ pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
         }
     };
     let page = if written_language == language { page } else { translated_report(state, &folder, language, is_current)? };
-    let page = with_video_address(page, &report_video_address(&request.visitor, id));
+    let page = with_video_address(page, &report_video_address(request, id));
     let served = with_back_links(page, &[ParentPage::Session(id), ParentPage::Sessions], language);
     Ok(WebResponse::sandboxed_page(served, &policy))
+}
+
+/// Returns the address of a session's video for its report, which is sandboxed and therefore cannot send the visitor's cookie.
+fn report_video_address(request: &WebRequest, id: &str) -> String {
+    let key = file_key(request.cookie.as_deref().unwrap_or_default(), &request.visitor.token, id);
+    format!("/sessions/{id}/report/{key}/{VIDEO}")
 }
 
 /// Returns a session's report in another language than `report.html`.

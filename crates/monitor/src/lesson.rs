@@ -72,6 +72,8 @@ pub struct LessonCoach {
     current: usize,
     /// Heading at the last input.
     last_heading_rad: f64,
+    /// Whether the drone flies home or lands by itself.
+    is_return: bool,
     state: StepState,
 }
 
@@ -104,7 +106,7 @@ impl LessonCoach {
     #[must_use]
     pub fn new(steps: &[LessonStep]) -> Option<Self> {
         let state = StepState::default();
-        (!steps.is_empty()).then(|| Self { steps: steps.to_vec(), current: 0, last_heading_rad: 0.0, state })
+        (!steps.is_empty()).then(|| Self { steps: steps.to_vec(), current: 0, last_heading_rad: 0.0, is_return: false, state })
     }
 
     /// Returns the task that the trainee follows in this step, if it is one.
@@ -131,6 +133,10 @@ impl LessonCoach {
         let turned_rad = math::wrap_pi(input.heading_rad - std::mem::replace(&mut self.last_heading_rad, input.heading_rad));
         let mut texts = Vec::new();
         let can_go_on = |step: &LessonStep| !input.is_return || matches!(step, LessonStep::FlyHome | LessonStep::Land);
+        self.is_return = input.is_return;
+        if input.is_return {
+            self.state.held_since = None;
+        }
         if let Some(step) = self.steps.get(self.current).copied().filter(can_go_on) {
             self.state.turned_rad += turned_rad;
             texts.extend(self.mistake(&step, input));
@@ -164,7 +170,7 @@ impl LessonCoach {
 
     /// Handles a picture, and returns the text to send to the pilot.
     pub fn handle_picture(&mut self, verdict: &PictureVerdict) -> Option<String> {
-        if !matches!(self.steps.get(self.current), Some(LessonStep::Photograph)) {
+        if self.is_return || !matches!(self.steps.get(self.current), Some(LessonStep::Photograph)) {
             return None;
         }
         match verdict {
@@ -398,6 +404,15 @@ mod tests {
         assert_eq!(coach.done(), 1);
         coach.update(&at(9_000, 2.6, true));
         assert_eq!(coach.done(), 2);
+        let mut coach = self::coach(&[LessonStep::Hover(PLACE), LessonStep::Photograph]);
+        let in_ring = |ms, is_return| LessonInput { position_m: PLACE.position_m, is_return, ..input(ms) };
+        coach.update(&in_ring(0, false));
+        coach.update(&in_ring(8_000, true));
+        coach.update(&in_ring(12_000, false));
+        assert_eq!((coach.done(), coach.status(&in_ring(12_000, false)).progress), (0, 0.0), "the time in the ring begins again");
+        coach.update(&in_ring(22_000, false));
+        coach.update(&in_ring(22_100, true));
+        assert_eq!((coach.done(), coach.handle_picture(&PictureVerdict::Nothing)), (1, None));
     }
 
     #[test]

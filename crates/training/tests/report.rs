@@ -436,7 +436,7 @@ fn exact_page_makes_no_network_requests() {
         let inside = value.starts_with('#') || value.starts_with("data:");
         assert!(inside, "{value}");
     }
-    assert_eq!(page.matches("<script").count(), 6, "expected scripts: data, two for three.js, uPlot, two of Spandrel's own");
+    assert_eq!(page.matches("<script").count(), 7, "expected scripts: data, two for three.js, uPlot, three of Spandrel's own");
     assert!(!page.contains(" style=\"") && !page.contains(" onclick"), "the policy blocks styles and scripts in attributes");
     assert!(page.contains("Content-Security-Policy"));
 }

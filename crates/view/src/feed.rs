@@ -208,17 +208,10 @@ impl Feed {
     /// Returns the monitor's texts for the active cues with the distances as they are now: the monitor repeats its texts only after seconds.
     #[must_use]
     pub fn current_cue_texts(&self, now: SimTime) -> CueTexts {
-        let guidance = self.guidance(now);
-        let distances = [
-            (cue::TOO_CLOSE, self.clearance_m(now)),
-            (cue::STAND_OFF, guidance.and_then(|guidance| guidance.stand_off).map(|reading| reading.actual_m)),
-            (cue::OFF_PATH, guidance.and_then(|guidance| guidance.deviation).map(|deviation| deviation.distance_m)),
-        ];
+        let stand_off_m = self.guidance(now).and_then(|guidance| guidance.stand_off).map(|reading| reading.actual_m.max(0.0));
         let mut texts = self.cue_texts.clone();
-        for (bit, distance_m) in distances {
-            if let Some(distance_m) = distance_m {
-                texts.set_value(bit, &format!("{distance_m:.1}"));
-            }
+        for (bit, distance_m) in [(cue::TOO_CLOSE, self.clearance_m(now)), (cue::STAND_OFF, stand_off_m)] {
+            distance_m.into_iter().for_each(|distance_m| texts.set_distance(bit, distance_m));
         }
         texts
     }
@@ -292,13 +285,11 @@ mod tests {
     fn exact_distances_in_the_texts_are_those_of_now() {
         let now = SimTime::from_ms(5_000);
         let mut feed = Feed::default();
-        feed.set_cues(cue::TOO_CLOSE | cue::OFF_PATH, now);
+        feed.set_cues(cue::TOO_CLOSE, now);
         feed.handle_text("Too close: 2.48 m, limit 2.5 m");
-        feed.handle_text("Off path 3.1 m: left");
         feed.handle_datagram(&Encoder::new(1, 1).encode(&NamedValue::ClearanceM(1.62).message(5_000)), now);
         let texts = feed.current_cue_texts(now);
         assert_eq!(texts.text(cue::TOO_CLOSE), Some("Too close: 1.6 m, limit 2.5 m"));
-        assert_eq!(texts.text(cue::OFF_PATH), Some("Off path 3.1 m: left"), "no newer value is known");
         let later = feed.current_cue_texts(now + OBSTACLE_TIMEOUT + SimTime::from_ms(1));
         assert_eq!(later.text(cue::TOO_CLOSE), Some("Too close: 2.48 m, limit 2.5 m"));
     }

@@ -1,5 +1,8 @@
 //! Bit flags in the monitor's `cues` value, one for each active cue.
 
+use spandrel_model::numbers::format_beyond_limit;
+use std::ops::Range;
+
 /// The battery level is in the yellow range.
 pub const BATTERY_YELLOW: i32 = 1;
 /// The battery level is in the red range.
@@ -77,12 +80,15 @@ impl CueTexts {
         }
     }
 
-    /// Replaces the measured value in a cue's text, which is its first number.
-    pub fn set_value(&mut self, bit: i32, value: &str) {
+    /// Replaces the distance in a cue's text by the present one, unless that is on the other side of the limit, which is the text's second
+    /// number.
+    pub fn set_distance(&mut self, bit: i32, distance_m: f64) {
         let Some((_, text)) = self.texts.iter_mut().find(|(bits, _)| bit & bits != 0) else { return };
-        let Some(start) = text.find(|sign: char| sign.is_ascii_digit()) else { return };
-        let length = text[start..].find(|sign: char| !sign.is_ascii_digit() && sign != '.').unwrap_or(text.len() - start);
-        text.replace_range(start..start + length, value);
+        let found = numbers(text);
+        let [(place, shown_m), (_, limit_m)] = &found[..] else { return };
+        if (distance_m < *limit_m) == (shown_m < limit_m) {
+            text.replace_range(place.clone(), &format_beyond_limit(distance_m, *limit_m, 1));
+        }
     }
 
     /// Removes the texts of cues that are no longer active.
@@ -97,6 +103,16 @@ impl CueTexts {
         let sent = self.texts.iter().find(|(bits, _)| bit & bits != 0).map(|(_, text)| text.as_str());
         sent.or_else(|| label(bit))
     }
+}
+
+/// Returns the numbers in a text and their places.
+fn numbers(text: &str) -> Vec<(Range<usize>, f64)> {
+    let (mut found, mut end) = (Vec::new(), 0);
+    while let Some(start) = text[end..].find(|sign: char| sign.is_ascii_digit()).map(|at| end + at) {
+        end = text[start..].find(|sign: char| !sign.is_ascii_digit() && sign != '.').map_or(text.len(), |at| start + at);
+        found.extend(text[start..end].parse().ok().map(|number| (start..end, number)));
+    }
+    found
 }
 
 impl<'a> FromIterator<&'a str> for CueTexts {
@@ -135,18 +151,29 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_measured_value_of_a_text_can_be_replaced() {
-        let mut texts: CueTexts =
-            ["Too close: 2.48 m, limit 2.5 m", "Stand-off too large: 8.9 m, recommended 4.5 m", "Crash: bridge"]
-                .into_iter()
-                .collect();
-        texts.set_value(TOO_CLOSE, "1.6");
-        texts.set_value(STAND_OFF, "10.2");
-        texts.set_value(CRASH, "3");
-        texts.set_value(OFF_PATH, "3");
-        assert_eq!(texts.text(TOO_CLOSE), Some("Too close: 1.6 m, limit 2.5 m"));
-        assert_eq!(texts.text(STAND_OFF), Some("Stand-off too large: 10.2 m, recommended 4.5 m"));
-        assert_eq!((texts.text(CRASH), texts.text(OFF_PATH)), (Some("Crash: bridge"), Some("Off path")));
+    fn exact_texts_show_the_present_distance_on_their_side_of_the_limit() {
+        let texts = || -> CueTexts {
+            let sent = [
+                "Too close: 2.1 m, limit 2.5 m",
+                "Stand-off too large: 8.9 m, recommended 4.5 m",
+                "Off path 3.1 m: left",
+                "Crash: bridge",
+            ];
+            sent.into_iter().collect()
+        };
+        let shown = |bit: i32, distance_m: f64| {
+            let mut texts = texts();
+            texts.set_distance(bit, distance_m);
+            texts.text(bit).unwrap_or_default().to_owned()
+        };
+        assert_eq!(shown(TOO_CLOSE, 1.62), "Too close: 1.6 m, limit 2.5 m");
+        assert_eq!(shown(TOO_CLOSE, 2.47), "Too close: 2.47 m, limit 2.5 m");
+        assert_eq!(shown(TOO_CLOSE, 2.7), "Too close: 2.1 m, limit 2.5 m", "the cue is about to end");
+        assert_eq!(shown(STAND_OFF, 10.2), "Stand-off too large: 10.2 m, recommended 4.5 m");
+        assert_eq!(shown(STAND_OFF, 3.9), "Stand-off too large: 8.9 m, recommended 4.5 m");
+        // The way back in the text belongs to the distance.
+        assert_eq!(shown(OFF_PATH, 4.0), "Off path 3.1 m: left");
+        assert_eq!((shown(CRASH, 4.0), shown(SPEEDING, 4.0)), ("Crash: bridge".into(), "Too fast".into()));
     }
 
     #[test]

@@ -30,6 +30,12 @@ pub struct BrowserSession {
     last_used_us: u64,
 }
 
+impl BrowserSession {
+    fn is_over(&self, now_us: u64) -> bool {
+        now_us.saturating_sub(self.last_used_us) > IDLE_TIMEOUT_US || now_us.saturating_sub(self.started_us) > MAX_SESSION_AGE_US
+    }
+}
+
 /// Login sessions of all browsers.
 #[derive(Debug, Default)]
 pub struct BrowserSessions(BTreeMap<[u8; 32], BrowserSession>);
@@ -40,10 +46,18 @@ pub fn encode_token(secret: &TokenBytes) -> String {
     secret.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Returns the key with which a visitor's page loads one file without the cookie. `token` is the visitor's CSRF token.
+/// Number of hexadecimal digits at the beginning of a [`file_key`] with which its session is found.
+const SESSION_DIGITS: usize = 16;
+
+/// Returns the key with which a visitor's page loads one file without their cookie. `token` is the visitor's CSRF token.
 #[must_use]
-pub fn file_key(token: &str, file: &str) -> String {
-    encode_token(&Sha256::digest(format!("{token}/{file}").as_bytes()).into())
+pub fn file_key(cookie: &str, token: &str, file: &str) -> String {
+    file_key_of(&key(cookie), token, file)
+}
+
+fn file_key_of(session: &[u8; 32], token: &str, file: &str) -> String {
+    let secret = encode_token(&Sha256::digest(format!("{token}/{file}").as_bytes()).into());
+    format!("{}{secret}", &encode_token(session)[..SESSION_DIGITS])
 }
 
 fn key(cookie: &str) -> [u8; 32] {
@@ -53,26 +67,26 @@ fn key(cookie: &str) -> [u8; 32] {
 impl BrowserSessions {
     /// Returns the session for a cookie and extends it; `None` if there is none or it has expired.
     pub fn find(&mut self, cookie: &str, now_us: u64) -> Option<BrowserSession> {
-        self.extend(key(cookie), now_us)
-    }
-
-    /// Returns the session of the visitor who received this [`file_key`] and extends it; `None` if there is none or it has expired.
-    pub fn find_by_file_key(&mut self, file: &str, given: &str, now_us: u64) -> Option<BrowserSession> {
-        let is_owner = |visit: &BrowserSession| constant_time_eq(&file_key(&visit.token, file), given);
-        let key = self.0.iter().find(|(_, visit)| is_owner(visit)).map(|(key, _)| *key)?;
-        self.extend(key, now_us)
-    }
-
-    fn extend(&mut self, key: [u8; 32], now_us: u64) -> Option<BrowserSession> {
+        let key = key(cookie);
         let visit = self.0.get_mut(&key)?;
-        let over = now_us.saturating_sub(visit.last_used_us) > IDLE_TIMEOUT_US
-            || now_us.saturating_sub(visit.started_us) > MAX_SESSION_AGE_US;
-        if over {
+        if visit.is_over(now_us) {
             self.0.remove(&key);
             return None;
         }
         visit.last_used_us = now_us;
         Some(visit.clone())
+    }
+
+    /// Returns the session of the visitor who received this [`file_key`]; `None` if there is none or it has expired. The session is not
+    /// extended, because the key can be passed on.
+    #[must_use]
+    pub fn find_by_file_key(&self, file: &str, given: &str, now_us: u64) -> Option<BrowserSession> {
+        let first = u64::from_str_radix(given.get(..SESSION_DIGITS)?, 16).ok()?.to_be_bytes();
+        let mut lowest = [0; 32];
+        lowest[..first.len()].copy_from_slice(&first);
+        let (key, visit) = self.0.range(lowest..).next()?;
+        let is_owner = constant_time_eq(&file_key_of(key, &visit.token, file), given);
+        (is_owner && !visit.is_over(now_us)).then(|| visit.clone())
     }
 
     /// Starts a session, either anonymous or after a login, and returns its cookie. Always creates a new cookie so that
@@ -168,13 +182,19 @@ mod tests {
         let mut visits = BrowserSessions::default();
         let (cookie, visit) = visits.begin(Some(("anna", TEST_CREDENTIAL)), [[1; 32], [8; 32]], 0);
         visits.begin(Some(("ben", TEST_CREDENTIAL)), [[2; 32], [9; 32]], 0);
-        let key = file_key(&visit.token, "flight-1");
-        let mut name =
-            |file: &str, key: &str, now_us: u64| visits.find_by_file_key(file, key, now_us).and_then(|visit| visit.name);
-        assert_eq!(name("flight-1", &key, 1), Some("anna".into()));
-        assert_eq!((name("flight-2", &key, 1), name("flight-1", "", 1), name("flight-1", &visit.token, 1)), (None, None, None));
-        assert_eq!(name("flight-1", &key, IDLE_TIMEOUT_US + 2), None, "expired");
-        assert_eq!(visits.find(&cookie, 0), None, "and removed");
+        let key = file_key(&cookie, &visit.token, "flight-1");
+        let name = |visits: &BrowserSessions, file: &str, key: &str, now_us: u64| {
+            visits.find_by_file_key(file, key, now_us).and_then(|visit| visit.name)
+        };
+        assert_eq!(name(&visits, "flight-1", &key, IDLE_TIMEOUT_US), Some("anna".into()));
+        assert_eq!(name(&visits, "flight-1", &key, IDLE_TIMEOUT_US + 1), None, "its use does not extend the session");
+        let zeros = "0".repeat(key.len());
+        for wrong in ["", "é", &visit.token, &zeros, &key[..key.len() - 1], &key.replace(&key[16..18], "zz")] {
+            assert_eq!(name(&visits, "flight-1", wrong, 1), None, "{wrong}");
+        }
+        assert_eq!(name(&visits, "flight-2", &key, 1), None);
+        visits.end(&cookie);
+        assert_eq!(name(&visits, "flight-1", &key, 1), None);
     }
 
     #[test]

@@ -99,6 +99,7 @@ mod tests {
         let is_in_words = |default: &&str| default.contains(' ') && default.contains(|sign: char| sign.is_ascii_lowercase());
         for default in form_keys().map(|description| description.documented.default.as_str()).filter(is_in_words) {
             assert_ne!(default_words(Language::German, default), default);
+            assert_ne!(default_words(Language::Spanish, default), default);
         }
     }
 

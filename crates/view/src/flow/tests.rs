@@ -1291,7 +1291,7 @@ fn exact_large_map_is_for_practice_only_and_its_key_returns_to_the_layout_before
     flow.toggle_large_map(true);
     assert_eq!(flow.arrangement.next(), ViewLayout::Camera, "the key for the layouts leaves the map, too");
     flow.handle_message(flying(&FlightChoice { purpose: Purpose::Assessment, ..practice }));
-    flow.leave_large_map();
+    assert_eq!(flow.arrangement, ViewLayout::SideBySide, "the next flight begins without it");
     flow.toggle_large_map(true);
     assert_eq!(flow.arrangement, ViewLayout::SideBySide);
     assert!(flow.take_notice().is_some_and(|words| words.contains("assessment")));

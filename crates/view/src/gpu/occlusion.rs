@@ -1,9 +1,8 @@
 //! Ambient occlusion of a picture: a pass for the depth, then those of the `occlusion` shader.
 
 use super::device::Gpu;
-use super::pass::{begin, begin_depth, uniform};
+use super::pass::{begin, begin_depth, texture, uniform};
 use super::pipelines::{DEPTH_FORMAT, OCCLUSION_FORMAT, OcclusionPipelines};
-use super::targets::texture;
 use super::uniforms::OcclusionUniforms;
 use crate::shot::Shot;
 

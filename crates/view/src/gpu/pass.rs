@@ -36,6 +36,21 @@ pub fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
     })
 }
 
+/// Creates a texture to render to and sample.
+pub fn texture(gpu: &Gpu, size: (u32, u32), format: wgpu::TextureFormat, samples: u32) -> wgpu::TextureView {
+    let descriptor = wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width: size.0.max(1), height: size.1.max(1), depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: samples,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    gpu.device.create_texture(&descriptor).create_view(&wgpu::TextureViewDescriptor::default())
+}
+
 impl GpuMesh {
     /// Uploads a mesh; returns `None` if it is empty.
     pub fn new(gpu: &Gpu, mesh: &Mesh) -> Option<Self> {

@@ -11,7 +11,6 @@ use crate::quality::Quality;
 use crate::scene::defects::{STAIN_CODES, defect_drawings};
 use crate::scene::{DefectPatch, Instance};
 use crate::shaders;
-use occlusion::OCCLUSION_TEXTURE;
 use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
 
 pub use labels::LabelPipelines;
@@ -26,6 +25,9 @@ pub const ADAPTATION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Floa
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Format of rendered pictures; the shader encodes sRGB.
 pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// A texture that shaders read without a sampler.
+const UNFILTERED: wgpu::BindingType = texture_binding(wgpu::TextureSampleType::Float { filterable: false }, false, false);
 
 /// One pipeline per material group.
 pub type MaterialPipelines = Vec<(MaterialGroup, wgpu::RenderPipeline)>;
@@ -66,8 +68,6 @@ pub struct Pipelines {
     pub sky_mirrored: wgpu::RenderPipeline,
     /// Shadow map depth.
     pub shadow: wgpu::RenderPipeline,
-    /// Ambient occlusion, if the preset has it.
-    pub occlusion: Option<OcclusionPipelines>,
     /// Brightness of the picture's cells, then the base that local adaptation compresses.
     pub adapt: [wgpu::RenderPipeline; 2],
     /// Conversion of radiance to a picture, for eyes, for a camera, and for a camera over a weak video link.
@@ -243,7 +243,7 @@ impl BindLayouts {
         Self {
             globals: layout(gpu, &globals),
             sampled: layout(gpu, &[(fragment, filtered), (fragment, smooth)]),
-            occluded: layout(gpu, &[(fragment, OCCLUSION_TEXTURE)]),
+            occluded: layout(gpu, &[(fragment, UNFILTERED)]),
             develop: layout(
                 gpu,
                 &[(fragment, UNIFORM), (fragment, filtered), (fragment, smooth), (fragment, depth), (fragment, filtered)],
@@ -390,13 +390,11 @@ impl Pipelines {
             samples: quality.samples,
             constants: &preset_constants,
         };
-        let shown = Some((false, DEPTH_COMPARE));
-        let lean = module(gpu, "lean");
+        let (shown, lean) = (Some((false, DEPTH_COMPARE)), module(gpu, "lean"));
         let shaded = if quality.lean { PipelineKey { module: &lean, entries: LEAN_ENTRY_POINTS, ..solid } } else { solid };
         let mirrored = PipelineKey { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };
         let back = PipelineKey { module: &sky, layouts: &globals, buffers: &[], depth: shown, cull: None, ..solid };
-        let simple = ("LOOK", f64::from(MaterialGroup::Simple as u32));
-        let see_through = [preset_constants.as_slice(), &[simple, occluded(quality, false)]].concat();
+        let see_through = [preset_constants.as_slice(), &[("LOOK", f64::from(MaterialGroup::Simple as u32))]].concat();
         let translucent =
             PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
         // Biased toward the camera, so that defects appear in front of the surfaces that they are on.
@@ -427,8 +425,6 @@ impl Pipelines {
             sky: build_pipeline(gpu, &back),
             precipitation: build_pipeline(gpu, &PipelineKey { module: &falling, blend: over, ..back }),
             shadow: build_pipeline(gpu, &dark),
-            occlusion: (quality.occlusion_directions > 0)
-                .then(|| OcclusionPipelines::new(gpu, &PipelineKey { layouts: &globals, ..solid }, quality.occlusion_directions)),
             adapt: adapt(gpu, &solid, &layouts.sampled),
             develop: develop(gpu, &film),
             smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),

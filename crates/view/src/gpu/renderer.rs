@@ -7,9 +7,9 @@ mod static_cells;
 
 use super::device::Gpu;
 use super::lru_cache::LruCache;
-use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, uniform, upload};
-use super::pipelines::{DEPTH_FORMAT, LabelPipelines, MaterialPipelines, OCCLUSION_FORMAT, Pipelines};
-use super::targets::{RenderTargets, bind_occlusion, noise_texture, photo_texture, texture, tile_texture};
+use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, texture, uniform, upload};
+use super::pipelines::{DEPTH_FORMAT, LabelPipelines, MaterialPipelines, OCCLUSION_FORMAT, OcclusionPipelines, Pipelines};
+use super::targets::{RenderTargets, bind_occlusion, noise_texture, photo_texture, tile_texture};
 use super::uniforms::{DevelopUniforms, Globals, MAX_SHADOW_MAPS, ShadowMaps};
 use crate::cells::{self, CellBounds, Frustum};
 use crate::ground_photo::GroundColors;
@@ -48,6 +48,8 @@ impl DrawCounts {
 pub struct Renderer {
     quality: Quality,
     pipelines: Pipelines,
+    /// If the preset has ambient occlusion.
+    occlusion: Option<OcclusionPipelines>,
     /// Compiled on first use of labels.
     labels: Option<LabelPipelines>,
     fixed: Vec<StaticCell>,
@@ -133,6 +135,8 @@ impl Renderer {
             targets: LruCache::new(),
             counts: DrawCounts::default(),
             labels: None,
+            occlusion: (quality.occlusion_directions > 0)
+                .then(|| OcclusionPipelines::new(gpu, &pipelines.globals_layout, quality.occlusion_directions)),
             quality,
             pipelines,
         }
@@ -174,12 +178,12 @@ impl Renderer {
         let targets = self
             .targets
             .take(&shot.size_px)
-            .unwrap_or_else(|| RenderTargets::new(gpu, &self.pipelines, &self.quality, shot.size_px));
+            .unwrap_or_else(|| RenderTargets::new(gpu, (&self.pipelines, self.occlusion.as_ref()), &self.quality, shot.size_px));
         if self.quality.reflection > 0.0 && view.lake {
             let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &view);
             self.counts = self.counts.and(mirrored);
         }
-        if let (Some(pipelines), Some(occlusion)) = (&self.pipelines.occlusion, &targets.occlusion) {
+        if let (Some(pipelines), Some(occlusion)) = (&self.occlusion, &targets.occlusion) {
             let mut counts = DrawCounts::default();
             let draw_solids = |pass: &mut wgpu::RenderPass| self.draw_shapes(pass, &moving, &view, &mut counts);
             occlusion.draw(gpu, &mut encoder, pipelines, shot, draw_solids);
@@ -236,7 +240,12 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.shadow);
             pass.set_bind_group(0, group, &[]);
             let lit = Frustum::of(&map.projection);
-            for fixed in self.fixed.iter().filter(|fixed| fixed.casts_shadows && lit.cell_may_be_visible(&fixed.bounds)) {
+            // A map that is kept does not depend on the viewpoint.
+            let is_shown = |fixed: &&StaticCell| {
+                whole || fixed.visible_range.shows(false, fixed.bounds.sphere.distance_to_m(shot.eye.position_m))
+            };
+            let casts = |fixed: &&StaticCell| fixed.casts_shadows && lit.cell_may_be_visible(&fixed.bounds);
+            for fixed in self.fixed.iter().filter(casts).filter(is_shown) {
                 count(&mut self.counts, fixed.solid.triangles(), &fixed.copies);
                 fixed.solid.draw(&mut pass, &fixed.copies);
             }
@@ -368,7 +377,7 @@ impl Renderer {
         pass.draw(0..3, 0..1);
         counts.draw_calls += 1;
         pass.set_pipeline(&self.pipelines.translucent);
-        pass.set_bind_group(1, occluded, &[]);
+        pass.set_bind_group(1, &self.not_occluded, &[]);
         for (model, copies) in moving.iter().filter(|(model, _)| model.is_translucent()) {
             let Some(Some(solid)) = self.models.get(model.index()) else { continue };
             count(&mut counts, solid.triangles(), copies);

@@ -2,8 +2,8 @@
 
 use super::device::Gpu;
 use super::occlusion::OcclusionTargets;
-use super::pass::uniform;
-use super::pipelines::{ADAPTATION_FORMAT, DEPTH_FORMAT, Pipelines, RADIANCE_FORMAT};
+use super::pass::{texture, uniform};
+use super::pipelines::{ADAPTATION_FORMAT, DEPTH_FORMAT, OcclusionPipelines, Pipelines, RADIANCE_FORMAT};
 use crate::ground_photo::GroundColors;
 use crate::quality::Quality;
 
@@ -37,24 +37,14 @@ pub struct RenderTargets {
     pub develop_data: wgpu::Buffer,
 }
 
-/// Creates a texture to render to and sample.
-pub fn texture(gpu: &Gpu, size: (u32, u32), format: wgpu::TextureFormat, samples: u32) -> wgpu::TextureView {
-    let descriptor = wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width: size.0.max(1), height: size.1.max(1), depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: samples,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    };
-    gpu.device.create_texture(&descriptor).create_view(&wgpu::TextureViewDescriptor::default())
-}
-
 impl RenderTargets {
     /// Creates the targets for a picture size.
-    pub fn new(gpu: &Gpu, pipelines: &Pipelines, quality: &Quality, size: (u32, u32)) -> Self {
+    pub fn new(
+        gpu: &Gpu,
+        (pipelines, occlusion): (&Pipelines, Option<&OcclusionPipelines>),
+        quality: &Quality,
+        size: (u32, u32),
+    ) -> Self {
         let light = texture(gpu, size, RADIANCE_FORMAT, quality.samples);
         let resolved = (quality.samples > 1).then(|| texture(gpu, size, RADIANCE_FORMAT, 1));
         let depth = texture(gpu, size, DEPTH_FORMAT, quality.samples);
@@ -89,7 +79,7 @@ impl RenderTargets {
                 entry(4, view(&fitted)),
             ],
         });
-        let occlusion = pipelines.occlusion.as_ref().map(|pipelines| OcclusionTargets::new(gpu, pipelines, size));
+        let occlusion = occlusion.map(|pipelines| OcclusionTargets::new(gpu, pipelines, size));
         let occluded = occlusion.as_ref().map(|targets| bind_occlusion(gpu, pipelines, targets.result()));
         let (of_radiance, of_measured) = (sampled(radiance), sampled(&measured));
         let adapt = [(measured, of_radiance), (fitted, of_measured)];

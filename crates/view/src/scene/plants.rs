@@ -30,6 +30,8 @@ const MAX_BOULDER_DISTANCE_M: f64 = 150.0;
 /// variants are drawn.
 const FAR_TREE_DISTANCE_M: f64 = 220.0;
 const LOD_OVERLAP_M: f64 = 5.0;
+/// Branches per whorl of distant trees in presets with many branches.
+const FAR_BRANCHES_PER_WHORL: u32 = 5;
 /// Size of tree groves, m.
 const GROVE_SIZE_M: f64 = 55.0;
 
@@ -82,38 +84,47 @@ fn generated(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
     } else {
         VisibleRange::EVERYWHERE
     };
-    let (spruce, fir) = (conifer(0.21, 3, quality.branches_per_whorl), conifer(0.15, 4, quality.branches_per_whorl));
-    let copies = |name, mesh, instances, seen| SceneItem {
-        name,
-        mesh,
-        instances,
-        casts_shadows: true,
-        visible_range: seen,
-        backdrop: false,
+    let mut parts = if quality.sparse { merged_trees(&tall, &slim, quality) } else { trees(&tall, &slim, quality) };
+    parts.push(copies("boulders", boulder(quality.branches_per_whorl), rocks, on_shore));
+    parts
+}
+
+fn copies(name: &'static str, mesh: Mesh, instances: Vec<Instance>, visible_range: VisibleRange) -> SceneItem {
+    SceneItem { name, mesh, instances, casts_shadows: true, visible_range, backdrop: false }
+}
+
+/// Returns trees as single meshes: software renderers process instances one by one, so a merged mesh is faster.
+fn merged_trees(tall: &[Instance], slim: &[Instance], quality: &Quality) -> Vec<SceneItem> {
+    let wood = |spruce: &Mesh, fir: &Mesh| {
+        let mut wood = merge_instances(spruce, tall);
+        wood.append(&merge_instances(fir, slim));
+        wood
     };
-    let boulders = copies("boulders", boulder(quality.branches_per_whorl), rocks, on_shore);
-    if quality.sparse {
-        // Software renderers process instances one by one, so a merged mesh is faster.
-        let wood = |spruce: &Mesh, fir: &Mesh| {
-            let mut wood = merge_instances(spruce, &tall);
-            wood.append(&merge_instances(fir, &slim));
-            wood
-        };
-        let near = VisibleRange {
-            direct_m: VisibleRange::within(FAR_TREE_DISTANCE_M + LOD_OVERLAP_M),
-            in_lake_m: VisibleRange::within(MAX_REFLECTED_TREE_DISTANCE_M),
-        };
-        let far = VisibleRange { direct_m: VisibleRange::beyond(FAR_TREE_DISTANCE_M), ..VisibleRange::DIRECT_ONLY };
-        return vec![
-            SceneItem { visible_range: near, ..SceneItem::here("trees", wood(&spruce, &fir), true) },
-            SceneItem {
-                visible_range: far,
-                ..SceneItem::here("distant trees", wood(&distant_conifer(0.21), &distant_conifer(0.15)), false)
-            },
-            boulders,
-        ];
-    }
-    vec![copies("spruces", spruce, tall, VisibleRange::EVERYWHERE), copies("firs", fir, slim, VisibleRange::EVERYWHERE), boulders]
+    let (spruce, fir) = (conifer(0.21, 3, quality.branches_per_whorl), conifer(0.15, 4, quality.branches_per_whorl));
+    let near = VisibleRange {
+        direct_m: VisibleRange::within(FAR_TREE_DISTANCE_M + LOD_OVERLAP_M),
+        in_lake_m: VisibleRange::within(MAX_REFLECTED_TREE_DISTANCE_M),
+    };
+    let far = VisibleRange { direct_m: VisibleRange::beyond(FAR_TREE_DISTANCE_M), ..VisibleRange::DIRECT_ONLY };
+    let distant = SceneItem::here("distant trees", wood(&distant_conifer(0.21), &distant_conifer(0.15)), false);
+    vec![
+        SceneItem { visible_range: near, ..SceneItem::here("trees", wood(&spruce, &fir), true) },
+        SceneItem { visible_range: far, ..distant },
+    ]
+}
+
+/// Returns trees as copies of their meshes, with fewer branches in the distance.
+fn trees(tall: &[Instance], slim: &[Instance], quality: &Quality) -> Vec<SceneItem> {
+    let everywhere = |distances_m: [f64; 2]| VisibleRange { direct_m: distances_m, in_lake_m: distances_m };
+    let near = everywhere(VisibleRange::within(FAR_TREE_DISTANCE_M + LOD_OVERLAP_M));
+    let far = everywhere(VisibleRange::beyond(FAR_TREE_DISTANCE_M));
+    let (spruce, fir) = (|branches| conifer(0.21, 3, branches), |branches| conifer(0.15, 4, branches));
+    vec![
+        copies("spruces", spruce(quality.branches_per_whorl), tall.to_vec(), near),
+        copies("distant spruces", spruce(FAR_BRANCHES_PER_WHORL), tall.to_vec(), far),
+        copies("firs", fir(quality.branches_per_whorl), slim.to_vec(), near),
+        copies("distant firs", fir(FAR_BRANCHES_PER_WHORL), slim.to_vec(), far),
+    ]
 }
 
 /// Returns the tree density at a point, 0 to 1: groves and clearings.

@@ -201,10 +201,10 @@ const MAX_CASTER_M: f32 = 60.0;
 const SEARCHES: u32 = 12u;
 const DISK_TAPS: u32 = 24u;
 
-// Offset of a sample in a disk of radius 1, evenly spread.
+// Offset of a sample in a disk of radius 1, evenly spread; the first one is the center.
 fn disk(k: u32, count: u32, turn: f32) -> vec2<f32> {
     let angle = f32(k) * 2.39996323 + turn;
-    return sqrt((f32(k) + 0.5) / f32(count)) * vec2<f32>(cos(angle), sin(angle));
+    return sqrt(f32(k) / f32(count)) * vec2<f32>(cos(angle), sin(angle));
 }
 
 // Share of the sun's disk that a place sees (Fernando 2005, "Percentage-Closer Soft Shadows"): the mean distance of the casters around it
@@ -220,7 +220,8 @@ fn disk_visible(layer: i32, q: vec3<f32>, n: vec3<f32>) -> f32 {
     let uv = vec2<f32>(0.5 + 0.5 * q.x, 0.5 - 0.5 * q.y);
     let turn = 6.2831853 * hash2(vec2<i32>(uv * side));
     let texel_m = g.texel[layer];
-    let search_m = max(0.5 * SUN_RAD * MAX_CASTER_M, 1.5 * texel_m);
+    // Within the margin that `in_map` leaves.
+    let search_m = clamp(0.5 * SUN_RAD * MAX_CASTER_M, 1.5 * texel_m, 0.0075 * side * texel_m);
     let flip = vec2<f32>(1.0, -1.0) / (side * texel_m);
     var casters = vec2<f32>(0.0);
     for (var k = 0u; k < SEARCHES; k++) {
@@ -283,6 +284,8 @@ struct Matter {
     roughness: f32,
     metal: f32,
     normal: vec3<f32>,
+    // Normal of the surface without its relief.
+    face: vec3<f32>,
     // Fractions of sky and sun illuminance that arrive indirectly.
     light: vec2<f32>,
     // Fraction of direct sunlight that the surface's own relief does not block.
@@ -358,7 +361,7 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
     let facing = max(dot(n, g.sun.xyz), 0.0);
     var direct = 0.0;
     if facing > 0.0 {
-        direct = g.sun.w * facing * m.sunlit * sun_visible(p, n);
+        direct = g.sun.w * facing * m.sunlit * sun_visible(p, select(n, m.face, PENUMBRA));
     }
     var bounce = m.light.y * g.sun.w;
     if DETAIL {

@@ -586,6 +586,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let across = length(vec2<f32>(dpdx(in.q.y), dpdy(in.q.y)));
     var look: Look;
     look.matter.normal = in.normal.xyz;
+    look.matter.face = in.normal.xyz;
     look.matter.roughness = 0.9;
     look.matter.metal = 0.0;
     look.matter.light = in.light;

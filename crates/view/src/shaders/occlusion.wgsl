@@ -1,6 +1,6 @@
 // Ambient occlusion: the share of the surroundings' light that reaches a place in a corner or gap, estimated from the depths of the
 // picture (Bavoil and Sainz 2008, "Image-Space Horizon-Based Ambient Occlusion"). The baked light (scene/bake.rs) has one value per
-// meter; this adds what is finer. `occlude` looks for the horizon in a few directions, others in each pixel of a square of four by four,
+// 1 to 1.5 m; this adds what is finer. `occlude` looks for the horizon in a few directions, others in each pixel of a square of four by four,
 // and `average` is the mean over such a square.
 
 // Number of directions per pixel.
@@ -8,7 +8,8 @@ override DIRECTIONS: u32 = 4u;
 // Number of samples in each direction.
 const STEPS: u32 = 4u;
 
-// Distance up to which surfaces darken each other, m (estimate: the spacing of the baked light), and its largest size in the picture, px.
+// Distance up to which surfaces darken each other, m (estimate: the spacing of the baked light), and its largest size in the picture, px: nearer
+// to the camera, only narrower gaps are darker.
 const REACH_M: f32 = 1.0;
 const MAX_REACH_PX: f32 = 96.0;
 // Smallest size of the reach at which gaps can be seen, px.
@@ -70,9 +71,9 @@ fn occlude(in: Fragment) -> @location(0) vec4<f32> {
     let reach = reach_px / pixels_per_m;
     let across = normalize(cross(smaller_step(p, pixel, vec2<i32>(1, 0)), smaller_step(p, pixel, vec2<i32>(0, 1))));
     let n = select(across, -across, dot(across, p) > 0.0);
-    // Pixels next to each other differ most.
+    // Each pixel of the square has a number of its own; neighbors differ by more than one.
     let cell = vec2<u32>(pixel) & vec2<u32>(3u);
-    let own = f32((cell.x * 5u + cell.y * 6u + 2u * (cell.x ^ cell.y)) & 15u) / 16.0;
+    let own = f32(((cell.x + cell.y) & 3u) * 4u + cell.x) / 16.0;
     var sum = 0.0;
     for (var k = 0u; k < DIRECTIONS; k++) {
         let angle = (f32(k) + own) / f32(DIRECTIONS) * TURN;

@@ -408,6 +408,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     }
     var m: Matter;
     m.normal = n;
+    m.face = n;
     m.metal = 0.0;
     m.roughness = 0.9;
     m.light = in.light;

@@ -34,12 +34,21 @@ fn prop_ambient_occlusion_darkens_corners_and_nothing_else() {
     // Local adaptation passes some of the change on to the neighborhood, of 255.
     const MAX_BRIGHTENING: f64 = 4.0;
     const VISIBLE: f64 = 8.0;
+    // Rounding of the occlusion and of a gray level.
+    const FLAT: f64 = 2.0;
+    // Height above the girder bridge's deck of a picture that is narrower than its roadway, m.
+    const ABOVE_DECK_M: f64 = 21.0;
     // The bays between the girders, with cross-frames and flanges, and the sky behind them.
     let bays = pictures("high", |high| Quality { occlusion_directions: 0, ..high }, [38.0, 2.7, 11.9], [50.0, 4.6, 18.0]);
     let changes = changes(&bays);
     let (darker, brighter) = (share(&changes, |change| change <= -VISIBLE), share(&changes, |change| change > MAX_BRIGHTENING));
     println!("visibly darker {:.1}%, brighter {:.2}%", 100.0 * darker, 100.0 * brighter);
     assert!((0.03..0.5).contains(&darker) && brighter < 0.005, "{darker} {brighter}");
+    // A place on the road, seen from above, where nothing stands within a meter.
+    let road = pictures("high", |high| Quality { occlusion_directions: 0, ..high }, [8.0, 0.0, ABOVE_DECK_M], [8.0, 0.05, 0.0]);
+    let [most, least] = [f64::max, f64::min].map(|pick| self::changes(&road).into_iter().fold(0.0, pick));
+    println!("on the road {least:.1} to {most:.1}");
+    assert!(-FLAT <= least && most <= FLAT, "{least} to {most}");
 }
 
 #[test]

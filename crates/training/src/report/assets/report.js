@@ -14,7 +14,7 @@
   let now = 0;
   const listeners = [];
 
-  // Frames between tasks count towards the nearest task, which nobody flies there.
+  // Frames between tasks count towards the nearest task, which is not being flown then.
   const taskName = (i) => (s.task[i] === null || s.state[i] === 0 ? '–' : data.tasks[s.task[i]].id + ' · ' + data.tasks[s.task[i]].name);
   const pathWords = (i) => texts.states[s.state[i]];
   // Names may contain a dollar sign, which has a meaning in replacement texts.

@@ -1,6 +1,9 @@
 //! Pipelines of the ambient occlusion.
 
-use super::{PipelineKey, UNIFORM, build_pipeline, build_with_constants, full_screen_key, layout, module, texture_binding};
+use super::{
+    DEPTH_COMPARE, ENTRY_POINTS, PipelineKey, UNFILTERED, UNIFORM, build_pipeline, copies, corners, full_screen_key, layout,
+    module, texture_binding,
+};
 use crate::gpu::device::Gpu;
 use crate::material_groups::MaterialGroup;
 
@@ -18,25 +21,34 @@ pub struct OcclusionPipelines {
 }
 
 impl OcclusionPipelines {
-    /// Compiles the pipelines. `solid` is the key of the pipelines of solids.
-    pub(super) fn new(gpu: &Gpu, solid: &PipelineKey, directions: u32) -> Self {
+    /// Compiles the pipelines for the globals' existing bind group layout.
+    pub fn new(gpu: &Gpu, globals_layout: &wgpu::BindGroupLayout, directions: u32) -> Self {
         let fragment = wgpu::ShaderStages::FRAGMENT;
         let depth = texture_binding(wgpu::TextureSampleType::Depth, false, false);
-        let input_layout = layout(gpu, &[(fragment, UNIFORM), (fragment, depth), (fragment, OCCLUSION_TEXTURE)]);
-        // Only trees depend on the material group, and they are among the simple materials.
+        let input_layout = layout(gpu, &[(fragment, UNIFORM), (fragment, depth), (fragment, UNFILTERED)]);
+        let [surface, occlusion] = ["surface", "occlusion"].map(|name| module(gpu, name));
+        let (globals, inputs, buffers) = ([Some(globals_layout)], [Some(&input_layout)], [Some(corners()), Some(copies())]);
+        // Only the shapes of trees depend on the material group, and they are among the simple materials.
         let of_any_group = [("LOOK", f64::from(MaterialGroup::Simple as u32))];
-        let shape = PipelineKey { target: None, samples: 1, ..*solid };
-        let (module, layouts) = (module(gpu, "occlusion"), [Some(&input_layout)]);
-        let key = PipelineKey { target: Some(OCCLUSION_FORMAT), ..full_screen_key(solid, (&module, &layouts), &[]) };
+        let shape = PipelineKey {
+            module: &surface,
+            entries: ENTRY_POINTS,
+            layouts: &globals,
+            buffers: &buffers,
+            target: None,
+            blend: None,
+            writes: wgpu::ColorWrites::ALL,
+            depth: Some((true, DEPTH_COMPARE)),
+            bias: 0,
+            cull: Some(wgpu::Face::Back),
+            front: wgpu::FrontFace::Ccw,
+            samples: 1,
+            constants: &of_any_group,
+        };
+        let key = PipelineKey { target: Some(OCCLUSION_FORMAT), ..full_screen_key(&shape, (&occlusion, &inputs), &[]) };
         let directions = [("DIRECTIONS", f64::from(directions))];
-        let passes = ["occlude", "average"].map(|entry| {
-            let constants = if entry == "occlude" { &directions[..] } else { &[] };
-            build_pipeline(gpu, &PipelineKey { entries: ("vs", entry), constants, ..key })
-        });
-        Self { depth: build_with_constants(gpu, &shape, &of_any_group), passes, input_layout }
+        let passes = [("occlude", &directions[..]), ("average", &[])]
+            .map(|(entry, constants)| build_pipeline(gpu, &PipelineKey { entries: ("vs", entry), constants, ..key }));
+        Self { depth: build_pipeline(gpu, &shape), passes, input_layout }
     }
 }
-
-/// A texture with the occlusion, which shaders read without a sampler.
-pub const OCCLUSION_TEXTURE: wgpu::BindingType =
-    texture_binding(wgpu::TextureSampleType::Float { filterable: false }, false, false);

@@ -2,10 +2,9 @@
 
 use super::{Frustum, Renderer, solids};
 use crate::gpu::device::{Gpu, GpuError};
-use crate::gpu::pass::{MeshInstances, begin};
+use crate::gpu::pass::{MeshInstances, begin, texture};
 use crate::gpu::picture::{color_texture, read_bytes};
 use crate::gpu::pipelines::{DEPTH_FORMAT, LabelPipelines, RADIANCE_FORMAT};
-use crate::gpu::targets::texture;
 use crate::gpu::uniforms::{Globals, ShadowMaps};
 use crate::masks::LabelMask;
 use crate::scene::Instance;

@@ -199,18 +199,20 @@ pub(super) fn inspector(
     let at = clamp_point(place(scale, marks.position_m), area.inside(0.6 * font));
     let mut items = vec![disc(pane, at, 0.5 * font, HudColor::Black), disc(pane, at, 0.34 * font, HudColor::White)];
     taken.push(at);
+    let mut signs = Vec::new();
     for (number, place_m) in (1_u8..).zip(&marks.places_m) {
         let here = place(scale, *place_m);
         let Some(label) = free_place(here, taken, area.inside(0.7 * font), font) else {
             // With large text, a small map has no room for all numbers.
-            items.push(square(pane, clamp_point(here, area.inside(0.5 * font)), 0.3 * font, HudColor::Gray));
+            signs.push(square(pane, clamp_point(here, area.inside(0.5 * font)), 0.3 * font, HudColor::Gray));
             continue;
         };
         items.push(pane.line(&[clamp_point(here, area), label], LEADER_WIDTH * font, HudColor::Gray));
-        items.push(square(pane, label, 0.58 * font, HudColor::Gray));
-        items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::Black, number.to_string()));
+        signs.push(square(pane, label, 0.58 * font, HudColor::Gray));
+        signs.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::Black, number.to_string()));
         taken.push(label);
     }
+    items.append(&mut signs);
     items
 }
 
