@@ -23,8 +23,7 @@ pub fn briefing(
     let title = text!(language, "report-briefing-title", title = briefing.title.as_str());
     let lead = text!(language, "report-briefing-lead", job = SLOT);
     let body = html! {
-        (print_button(language))
-        header { h1 { (briefing.title) } p.lead { (filled(&lead, &html! { code { (briefing.job) } })) } }
+        header { h1 { (briefing.title) } p.lead { (filled(&lead, &html! { code { (briefing.job) } })) } (print_button(language)) }
         main { (contents(briefing, (scenario, site), pictures, language)) }
     };
     document(language, &title, &PageScripts::Print, &body)
