@@ -3,8 +3,11 @@
 
 #[path = "support/best.rs"]
 mod best;
+#[path = "support/deck.rs"]
+mod deck;
 
 use best::best;
+use deck::deck;
 use rapier3d::parry::query::{PointQuery, Ray, RayCast};
 use rapier3d::parry::shape::ConvexPolyhedron;
 use rapier3d::prelude::{
@@ -14,9 +17,9 @@ use spandrel_model::frames::{Enu, Frd, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{BatteryModel, Scenario};
+use spandrel_model::site::Site;
 use spandrel_model::site::convex::Convex;
 use spandrel_model::site::geometry::Geometry;
-use spandrel_model::site::{Site, Surface};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, PhysicsState, PowerLoad};
@@ -274,16 +277,6 @@ fn compare_impact(vehicle: &Vehicle, deck: &OwnDeck) {
     println!("  rapier, a plate of {PLATE_M} m: at most {deepest:.1e} m deep");
 }
 
-/// Returns a point on a bridge deck surrounded only by road.
-fn deck_place(site: &Site) -> Vec3<Enu> {
-    let lane = site.lanes().iter().find(|lane| !lane.walkway).expect("the site must have a road lane");
-    let (first, last) = (lane.points_m[0], lane.points_m[lane.points_m.len() - 1]);
-    let above = (first + last) * 0.5 + Vec3::new(0.0, 0.0, 3.0);
-    let hit = site.ray(above, Vec3::new(0.0, 0.0, -1.0), 6.0, SimTime::ZERO).expect("the deck must be below its lane");
-    assert_eq!(hit.surface, Surface::Bridge);
-    above - Vec3::new(0.0, 0.0, hit.distance_m)
-}
-
 fn main() {
     let text = include_str!("../scenarios/two-bridges.toml");
     let mut scenario: Scenario = spandrel_model::scenario::read("two-bridges.toml", text, &|_| Err("no file".into()))
@@ -293,7 +286,7 @@ fn main() {
     let vehicle = spandrel_model::vehicle::read("phantom2.toml", spandrel_model::shipped::PHANTOM2)
         .expect("the shipped aircraft must be valid");
     let (site, model) = (Site::build(&scenario, 1), AirframeModel::new(&vehicle, BatteryModel::Physical));
-    let deck = OwnDeck { model: &model, site: &site, place: deck_place(&site) };
+    let deck = OwnDeck { model: &model, site: &site, place: deck(&site) };
     compare_rest(&vehicle, &deck);
     compare_impact(&vehicle, &deck);
 }

@@ -323,6 +323,30 @@ const LEAN_ENTRY_POINTS: (&str, &str) = ("vs_lean", "fs_lean");
 /// Reversed depth: nearer fragments have greater depth, and equal depth overwrites.
 const DEPTH_COMPARE: wgpu::CompareFunction = wgpu::CompareFunction::GreaterEqual;
 
+/// Returns the key of pipelines that draw solids as radiance.
+fn solid_key<'a>(
+    module: &'a wgpu::ShaderModule,
+    layouts: &'a [Option<&'a wgpu::BindGroupLayout>],
+    buffers: &'a [Option<wgpu::VertexBufferLayout<'a>>],
+    (samples, constants): (u32, &'a [(&'a str, f64)]),
+) -> PipelineKey<'a> {
+    PipelineKey {
+        module,
+        entries: ENTRY_POINTS,
+        layouts,
+        buffers,
+        target: Some(RADIANCE_FORMAT),
+        blend: None,
+        writes: wgpu::ColorWrites::ALL,
+        depth: Some((true, DEPTH_COMPARE)),
+        bias: 0,
+        cull: Some(wgpu::Face::Back),
+        front: wgpu::FrontFace::Ccw,
+        samples,
+        constants,
+    }
+}
+
 /// Returns the key of a pipeline that converts radiance to a picture by drawing one full-screen triangle.
 fn full_screen_key<'a>(
     solid: &PipelineKey<'a>,
@@ -368,28 +392,14 @@ impl Pipelines {
         let [surface, sky, falling, patch, water, shadow] =
             ["surface", "sky", "precipitation", "defect", "water", "shadow"].map(|name| module(gpu, name));
         let film_module = module(gpu, if quality.samples > 1 { shaders::DEVELOP_MULTISAMPLED } else { "develop" });
-        let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
+        let over = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
         let (globals, of_surfaces) = ([Some(&layouts.globals)], [Some(&layouts.globals), Some(&layouts.occluded)]);
         let (solid_buffers, patch_buffers, water_buffers) =
             ([Some(corners()), Some(copies())], [Some(patches())], [Some(corners())]);
         let (lake_layouts, map_layouts, develop_layouts) =
             ([Some(&layouts.globals), Some(&layouts.sampled)], [Some(&layouts.map)], [Some(&layouts.develop)]);
         let preset_constants = preset_constants(quality, weathered);
-        let solid = PipelineKey {
-            module: &surface,
-            entries: ENTRY_POINTS,
-            layouts: &of_surfaces,
-            buffers: &solid_buffers,
-            target: Some(RADIANCE_FORMAT),
-            blend: None,
-            writes: wgpu::ColorWrites::ALL,
-            depth: Some((true, DEPTH_COMPARE)),
-            bias: 0,
-            cull: Some(wgpu::Face::Back),
-            front,
-            samples: quality.samples,
-            constants: &preset_constants,
-        };
+        let solid = solid_key(&surface, &of_surfaces, &solid_buffers, (quality.samples, &preset_constants));
         let (shown, lean) = (Some((false, DEPTH_COMPARE)), module(gpu, "lean"));
         let shaded = if quality.lean { PipelineKey { module: &lean, entries: LEAN_ENTRY_POINTS, ..solid } } else { solid };
         let mirrored = PipelineKey { front: wgpu::FrontFace::Cw, samples: 1, ..shaded };

@@ -1,9 +1,6 @@
 //! Pipelines that render element and defect labels instead of radiance.
 
-use super::{
-    DEPTH_COMPARE, ENTRY_POINTS, PipelineKey, RADIANCE_FORMAT, build_pipeline, build_with_constants, copies, corners, module,
-    patches,
-};
+use super::{DEPTH_COMPARE, PipelineKey, build_pipeline, build_with_constants, copies, corners, module, patches, solid_key};
 use crate::gpu::device::Gpu;
 use crate::scene::defects::defect_drawings;
 
@@ -22,21 +19,7 @@ impl LabelPipelines {
         let layouts = layouts.map(Some);
         let (solids, of_patches) = ([Some(corners()), Some(copies())], [Some(patches())]);
         let constants = [("MASK", 1.0)];
-        let solid = PipelineKey {
-            module: &surface,
-            entries: ENTRY_POINTS,
-            layouts: &layouts,
-            buffers: &solids,
-            target: Some(RADIANCE_FORMAT),
-            blend: None,
-            writes: wgpu::ColorWrites::ALL,
-            depth: Some((true, DEPTH_COMPARE)),
-            bias: 0,
-            cull: Some(wgpu::Face::Back),
-            front: wgpu::FrontFace::Ccw,
-            samples: 1,
-            constants: &constants,
-        };
+        let solid = solid_key(&surface, &layouts, &solids, (1, &constants));
         let flat = PipelineKey {
             module: &defect,
             buffers: &of_patches,

@@ -1,8 +1,8 @@
 //! Pipelines of the ambient occlusion.
 
 use super::{
-    DEPTH_COMPARE, ENTRY_POINTS, PipelineKey, UNFILTERED, UNIFORM, build_pipeline, copies, corners, full_screen_key, layout,
-    module, texture_binding,
+    PipelineKey, UNFILTERED, UNIFORM, build_pipeline, copies, corners, full_screen_key, layout, module, solid_key,
+    texture_binding,
 };
 use crate::gpu::device::Gpu;
 use crate::material_groups::MaterialGroup;
@@ -30,21 +30,7 @@ impl OcclusionPipelines {
         let (globals, inputs, buffers) = ([Some(globals_layout)], [Some(&input_layout)], [Some(corners()), Some(copies())]);
         // Only the shapes of trees depend on the material group, and they are among the simple materials.
         let of_any_group = [("LOOK", f64::from(MaterialGroup::Simple as u32))];
-        let shape = PipelineKey {
-            module: &surface,
-            entries: ENTRY_POINTS,
-            layouts: &globals,
-            buffers: &buffers,
-            target: None,
-            blend: None,
-            writes: wgpu::ColorWrites::ALL,
-            depth: Some((true, DEPTH_COMPARE)),
-            bias: 0,
-            cull: Some(wgpu::Face::Back),
-            front: wgpu::FrontFace::Ccw,
-            samples: 1,
-            constants: &of_any_group,
-        };
+        let shape = PipelineKey { target: None, ..solid_key(&surface, &globals, &buffers, (1, &of_any_group)) };
         let key = PipelineKey { target: Some(OCCLUSION_FORMAT), ..full_screen_key(&shape, (&occlusion, &inputs), &[]) };
         let directions = [("DIRECTIONS", f64::from(directions))];
         let passes = [("occlude", &directions[..]), ("average", &[])]
