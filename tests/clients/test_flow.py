@@ -116,7 +116,7 @@ def count(photograph, color):
 
 def is_page(photograph):
     """Returns whether a page covers the window."""
-    return count(photograph[-6:], NIGHT) > 0.9 * photograph[-6:].shape[0] * photograph.shape[1] and count(photograph, FOCUS) > 500
+    return count(photograph[:6], NIGHT) > 0.9 * photograph[:6].shape[0] * photograph.shape[1] and count(photograph, FOCUS) > 500
 
 
 def is_start_page(photograph):
