@@ -120,6 +120,11 @@ fn compare_queries(pairs: &[Pair]) {
     }
 }
 
+/// Returns the height of the center of mass of an aircraft that stands on its feet, m.
+fn standing_m(vehicle: &Vehicle) -> f64 {
+    vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(0.0, f64::max) + FOOT_RADIUS_M
+}
+
 /// An aircraft with its feet above a plate in rapier's world. The plate's upper side is at 0.
 struct RapierAircraft {
     world: PhysicsWorld,
@@ -136,7 +141,7 @@ impl RapierAircraft {
         let surface = |collider: ColliderBuilder| collider.friction(vehicle.hull.friction).restitution(vehicle.hull.restitution);
         let plate = RigidBodyBuilder::fixed().translation(Vector::new(0.0, 0.0, -0.5 * plate_m));
         world.insert(plate, surface(ColliderBuilder::cuboid(20.0, 20.0, 0.5 * plate_m)));
-        let standing_m = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(0.0, f64::max) + FOOT_RADIUS_M;
+        let standing_m = standing_m(vehicle);
         let inertia = Vector::from_array(vehicle.inertia_kg_m2);
         let body = RigidBodyBuilder::dynamic()
             .translation(Vector::new(0.0, 0.0, standing_m + above_m))
@@ -180,7 +185,7 @@ impl RapierAircraft {
     }
 }
 
-/// What an aircraft does that should stand still.
+/// Motion and normal force of an aircraft that stands on its feet.
 struct Rest {
     sunk_m: f64,
     drift_m: f64,
@@ -188,8 +193,9 @@ struct Rest {
 }
 
 impl Rest {
-    /// Measures heights and normal forces over steps, of an aircraft of a weight.
-    fn of(samples: &[(f64, f64)], weight_n: f64) -> Self {
+    /// Measures an aircraft of a weight. `step` advances it and returns the height of its feet, m, and its normal force, N.
+    fn measure(weight_n: f64, mut step: impl FnMut() -> (f64, f64)) -> Self {
+        let samples: Vec<(f64, f64)> = (0..MEASURED_STEPS).map(|_| step()).collect();
         let heights = samples.iter().map(|sample| sample.0);
         let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (h.min(low), h.max(high)));
         let force_error = samples.iter().map(|sample| (sample.1 / weight_n - 1.0).abs()).fold(0.0, f64::max);
@@ -223,8 +229,7 @@ impl OwnDeck<'_> {
 
     /// Returns the state with the feet at a height above the deck.
     fn above(&self, vehicle: &Vehicle, above_m: f64) -> PhysicsState {
-        let feet = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(0.0, f64::max) + FOOT_RADIUS_M;
-        PhysicsState::at_rest((self.place + Vec3::new(0.0, 0.0, feet + above_m)).ned(), 0.0)
+        PhysicsState::at_rest((self.place + Vec3::new(0.0, 0.0, standing_m(vehicle) + above_m)).ned(), 0.0)
     }
 
     fn height_m(&self, vehicle: &Vehicle, state: &PhysicsState) -> f64 {
@@ -237,20 +242,18 @@ fn compare_rest(vehicle: &Vehicle, deck: &OwnDeck) {
     let weight_n = vehicle.mass_kg * GRAVITY_M_S2;
     let (mut state, mut now) = (deck.above(vehicle, 0.01), SimTime::ZERO);
     (0..SETTLING_STEPS).for_each(|_| deck.step(&mut state, &mut now));
-    let mut sample = || {
+    let own = Rest::measure(weight_n, || {
         deck.step(&mut state, &mut now);
         (deck.height_m(vehicle, &state), state.contact.normal_force_n)
-    };
-    let samples: Vec<(f64, f64)> = (0..MEASURED_STEPS).map(|_| sample()).collect();
-    Rest::of(&samples, weight_n).print("own", ns_per_step(MEASURED_STEPS, || deck.step(&mut state, &mut now)));
+    });
+    own.print("own", ns_per_step(MEASURED_STEPS, || deck.step(&mut state, &mut now)));
     let mut rapier = RapierAircraft::new(vehicle, 0.5, 0.01, 0.0);
     rapier.settle();
-    let mut sample = || {
+    let theirs = Rest::measure(weight_n, || {
         rapier.world.step();
         (rapier.height_m(), rapier.normal_force_n())
-    };
-    let samples: Vec<(f64, f64)> = (0..MEASURED_STEPS).map(|_| sample()).collect();
-    Rest::of(&samples, weight_n).print("rapier", ns_per_step(MEASURED_STEPS, || rapier.world.step()));
+    });
+    theirs.print("rapier", ns_per_step(MEASURED_STEPS, || rapier.world.step()));
     let mut crowded = RapierAircraft::new(vehicle, 0.5, 0.01, 0.0).with_vehicles();
     crowded.settle();
     println!("  rapier, with {VEHICLE_COUNT} vehicles: {:.0} ns per step", ns_per_step(MEASURED_STEPS, || crowded.world.step()));

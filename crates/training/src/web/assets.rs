@@ -8,7 +8,7 @@ use spandrel_monitor::folder::sha256_hex;
 pub const STYLE_NAME: &str = "style.css";
 /// File name of the questionnaire's script.
 pub const FORM_NAME: &str = "form.js";
-/// File name of the script of a job's briefing.
+/// File name of the script of the button that prints a page.
 pub const PRINT_NAME: &str = "print.js";
 /// File name of the live page's script.
 pub const LIVE_NAME: &str = "live.js";

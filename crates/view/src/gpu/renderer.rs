@@ -183,14 +183,14 @@ impl Renderer {
             let mirrored = self.draw_mirror(&mut encoder, &targets, &moving, &view);
             self.counts = self.counts.and(mirrored);
         }
+        let still = self.visible_cells(&view.direct_view(), (false, view.eye_m));
+        let mut shapes = DrawCounts::default();
         if let (Some(pipelines), Some(occlusion)) = (&self.occlusion, &targets.occlusion) {
-            let mut counts = DrawCounts::default();
-            let draw_solids = |pass: &mut wgpu::RenderPass| self.draw_shapes(pass, &moving, &view, &mut counts);
+            let draw_solids = |pass: &mut wgpu::RenderPass| self.draw_shapes(pass, (&moving, &still), &mut shapes);
             occlusion.draw(gpu, &mut encoder, pipelines, shot, draw_solids);
-            self.counts = self.counts.and(counts);
         }
-        let lit = self.draw_scene(&mut encoder, &targets, &moving, &view);
-        self.counts = self.counts.and(lit);
+        let lit = self.draw_scene(&mut encoder, &targets, (&moving, &still), &view);
+        self.counts = self.counts.and(shapes).and(lit);
         let develop = DevelopUniforms::new(shot, &self.quality);
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
         for (pipeline, (target, input)) in self.pipelines.adapt.iter().zip(&targets.adapt) {
@@ -268,7 +268,6 @@ impl Renderer {
         moving: &[(MoverModel, MeshInstances)],
         view: &ShotView,
     ) -> DrawCounts {
-        let shown = view.mirrored();
         let mut counts = DrawCounts::default();
         let mut pass = begin(encoder, &targets.mirror, None, Some(&targets.mirror_depth));
         pass.set_bind_group(0, &self.bound_mirrored, &[]);
@@ -276,8 +275,7 @@ impl Renderer {
         self.draw_solids(
             &mut pass,
             &self.pipelines.surfaces_mirrored[view.lamp],
-            (moving, &shown),
-            (true, view.eye_m),
+            (moving, &self.visible_cells(&view.mirrored(), (true, view.eye_m))),
             &mut counts,
         );
         pass.set_pipeline(&self.pipelines.sky_mirrored);
@@ -291,11 +289,9 @@ impl Renderer {
         &self,
         pass: &mut wgpu::RenderPass,
         pipelines: &MaterialPipelines,
-        (moving, shown): (&[(MoverModel, MeshInstances)], &Frustum),
-        place: (bool, Vec3<Enu>),
+        (moving, still): (&[(MoverModel, MeshInstances)], &[&StaticCell]),
         counts: &mut DrawCounts,
     ) {
-        let still = self.visible_cells(shown, place);
         for (look, pipeline) in pipelines {
             pass.set_pipeline(pipeline);
             let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
@@ -311,13 +307,11 @@ impl Renderer {
     fn draw_shapes(
         &self,
         pass: &mut wgpu::RenderPass,
-        moving: &[(MoverModel, MeshInstances)],
-        view: &ShotView,
+        (moving, still): (&[(MoverModel, MeshInstances)], &[&StaticCell]),
         counts: &mut DrawCounts,
     ) {
-        let shown = view.direct_view();
         pass.set_bind_group(0, &self.bound, &[]);
-        let still = self.visible_cells(&shown, (false, view.eye_m)).into_iter().map(|fixed| (&*fixed.solid, &fixed.copies));
+        let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
         for (solid, copies) in solids(&self.models, moving).chain(still) {
             count(counts, solid.triangles(), copies);
             solid.draw(pass, copies);
@@ -353,7 +347,7 @@ impl Renderer {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         targets: &RenderTargets,
-        moving: &[(MoverModel, MeshInstances)],
+        (moving, still): (&[(MoverModel, MeshInstances)], &[&StaticCell]),
         view: &ShotView,
     ) -> DrawCounts {
         let shown = view.direct_view();
@@ -362,7 +356,7 @@ impl Renderer {
         let mut pass = begin(encoder, &targets.light, targets.resolved.as_ref(), Some(&targets.depth));
         pass.set_bind_group(0, &self.bound, &[]);
         pass.set_bind_group(1, occluded, &[]);
-        self.draw_solids(&mut pass, &self.pipelines.surfaces[view.lamp], (moving, &shown), (false, view.eye_m), &mut counts);
+        self.draw_solids(&mut pass, &self.pipelines.surfaces[view.lamp], (moving, still), &mut counts);
         let patches = self.draw_patches(&mut pass, &self.pipelines.defects);
         counts = counts.and(patches);
         pass.set_pipeline(&self.pipelines.water[view.breaking][view.lamp]);
