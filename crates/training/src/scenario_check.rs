@@ -13,6 +13,7 @@ use spandrel_model::scenario::{self, BatteryModel, Bridge, PlacedDefect, Scenari
 use spandrel_model::site::drones::SiteDrone;
 use spandrel_model::site::geometry::PAD;
 use spandrel_model::site::hand_placed::Misplacement;
+use spandrel_model::site::ropes::SiteRope;
 use spandrel_model::site::walkable::MAX_HEIGHT_ERROR_M;
 use spandrel_model::site::{Site, defects};
 use spandrel_model::toml::Problem;
@@ -198,6 +199,7 @@ fn site_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, op
     let mut problems = clearance_problems(source, scenario, site, options);
     if (options.may_continue)() {
         problems.extend(drone_problems(source, site, options));
+        problems.extend(rope_problems(source, scenario, site, options));
         problems.extend(place_problems(source, scenario, site));
         problems.extend(placed_defect_problems(source, scenario, site));
     }
@@ -334,6 +336,44 @@ fn drone_problems(source: &ScenarioText<'_>, site: &Site, options: &CheckOptions
         })
     };
     site.drones().iter().enumerate().filter_map(tight).collect()
+}
+
+/// Heading of the table of a rope.
+const ROPE_TABLES: [&str; 1] = ["[[ropes]]"];
+/// Distance between the points of a task's path at which ropes are searched, m.
+const ROPE_SEARCH_STEP_M: f64 = 0.25;
+
+/// Returns the problems of the ropes: the tasks' paths must be clear of them, wherever the wind blows them.
+fn rope_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
+    let lines = table_line_numbers(source.text, &ROPE_TABLES);
+    let needed_m = needed_clearance_m(options.aircraft);
+    let mut problems: Vec<Problem> = Vec::new();
+    for task in scenario.tasks.iter().take_while(|_| (options.may_continue)()) {
+        let near = |at_m: Vec3<Enu>| {
+            let close = site.ropes().distances_over_time_m(at_m).filter(|(_, distance_m)| *distance_m < needed_m);
+            close.map(|(rope, distance_m)| (rope, distance_m, at_m)).collect::<Vec<_>>()
+        };
+        let sampled = task.segments().flat_map(|(from, to)| {
+            let count = ((to - from).norm() / ROPE_SEARCH_STEP_M).ceil().max(1.0) as u32;
+            (0..=count).map(move |k| from.lerp(to, f64::from(k) / f64::from(count)))
+        });
+        let Some((k, distance_m, at_m)) = sampled.flat_map(near).min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+        let [east, north, up] = at_m.array();
+        let name = site.ropes().all().get(k).map_or("", SiteRope::name);
+        problems.push(Problem {
+            file: source.file.to_owned(),
+            line: lines.get(k).copied().unwrap_or(1),
+            key: format!("ropes.{k}.points_m"),
+            location: format!("ropes[{k}].points_m"),
+            value: format!("{distance_m:.2} m"),
+            allowed: needed_clearance_words(options.aircraft),
+            message: format!(
+                "the path of task {} '{}' passes too close to rope {name} at east {east:.1} m, north {north:.1} m, up {up:.1} m",
+                task.id, task.name
+            ),
+        });
+    }
+    problems
 }
 
 /// Distance between the points of a drone's path at which traffic and crew are searched, m.
@@ -518,6 +558,24 @@ mod tests {
         // Two meters above the lane, the deck is far enough, but a car is 1.5 m high.
         let low = job([0.0, 1.8, 36.0], [1.0, 1.8, 36.0]);
         assert!(low.len() == 1 && low[0].message.contains("vehicles or people"), "{low:?}");
+    }
+
+    #[test]
+    fn exact_paths_of_tasks_must_be_clear_of_ropes() {
+        let practice = shipped_text("practice");
+        let example = shipped::SCENARIO_README.split("```toml\n").find(|block| block.starts_with("[[ropes]]")).unwrap();
+        let example = example.split("```").next().unwrap();
+        assert_eq!(scenario_findings("practice", &format!("{practice}\n{example}"), &aircraft()).problems, []);
+        let task = scenario::read("practice.toml", &practice, &|_| Err("none".into())).unwrap().tasks[0].clone();
+        let [east, north, up] = task.path_m[0].lerp(task.path_m[1], 0.5).array();
+        let job =
+            |up: f64| format!("{practice}\n[[ropes]]\nname = \"line\"\npoints_m = [[{east}, {north}, {up}]]\nlength_m = 2\n");
+        assert_eq!(scenario_findings("practice", &job(up + 10.0), &aircraft()).problems, []);
+        let low = scenario_findings("practice", &job(up + 1.0), &aircraft()).problems;
+        assert_eq!(low.len(), 1, "{low:?}");
+        assert_eq!((low[0].key.as_str(), low[0].location.as_str()), ("ropes.0.points_m", "ropes[0].points_m"));
+        assert_eq!([low[0].line], table_line_numbers(&job(up + 1.0), &ROPE_TABLES)[..]);
+        assert!(low[0].message.contains("passes too close to rope line at "), "{low:?}");
     }
 
     fn aircraft() -> Vehicle {

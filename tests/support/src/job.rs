@@ -67,6 +67,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         tasks,
         defects: DefectSpec { size_factor: 1.0, ..DefectSpec::default() },
         drones: Vec::new(),
+        ropes: Vec::new(),
         traffic: TrafficSpec { cars: 0, trucks: 0, pedestrians: 0, car_speed_m_s: 15.0 },
         wind: WindSpec {
             model: WindModel::Paper,
@@ -158,6 +159,7 @@ pub fn vehicle() -> Vehicle {
             time_constant_s: 0.05,
             max_speed_rad_s: 1000.0,
             idle_speed_rad_s: 100.0,
+            speed_spread: 0.0,
             inertia_kg_m2: 1e-5,
             drag_coefficient_n_s2_m: 0.0,
             efficiency: 0.6,

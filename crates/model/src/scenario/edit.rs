@@ -16,6 +16,10 @@ const BRIDGE_TYPE_KEY: &str = "type";
 const NEW_DRONE_HEIGHT_M: f64 = 60.0;
 /// Length of the path of a new drone, m to the east.
 const NEW_DRONE_PATH_M: f64 = 40.0;
+/// Height of a new rope above the landing pad, its distance to the east and that of its ends, and its length, m.
+const NEW_ROPE_HEIGHT_M: f64 = 60.0;
+const NEW_ROPE_SPAN_M: f64 = 20.0;
+const NEW_ROPE_LENGTH_M: f64 = 21.0;
 /// Distance between a new bridge and the one before it, m to the north.
 const NEW_BRIDGE_DISTANCE_M: f64 = 100.0;
 
@@ -31,7 +35,7 @@ pub enum Edit {
     },
     /// Adds a table to a repeated table.
     Add {
-        /// Location of the repeated table: `tasks`, `bridges`, `drones` or `wind.events`.
+        /// Location of the repeated table: `tasks`, `bridges`, `drones`, `ropes` or `wind.events`.
         location: String,
     },
     /// Removes one table of a repeated table.
@@ -214,6 +218,7 @@ fn new_table(location: &str, values: &ScenarioValues) -> Option<Entries> {
         "tasks" => Some(new_task(values)),
         "bridges" => Some(new_bridge(values)),
         "drones" => Some(new_drone(values)),
+        "ropes" => Some(new_rope(values)),
         "wind.events" => Some(new_gust()),
         _ => None,
     }
@@ -263,6 +268,19 @@ fn new_drone(values: &ScenarioValues) -> Entries {
         ("name", Value::from(free)),
         ("points_m", Value::Array([point(east), point(east + NEW_DRONE_PATH_M)].into_iter().collect())),
         ("repeat", Value::from(true)),
+    ]
+}
+
+/// Returns a rope that hangs high above the landing pad, where no bridge is in its way.
+fn new_rope(values: &ScenarioValues) -> Entries {
+    let names: Vec<&str> = (0..values.count("ropes")).filter_map(|k| values.get(&format!("ropes[{k}].name"))).collect();
+    let free = (names.len() + 1..).map(|k| format!("rope-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default();
+    let [east, north, up] = position(values.get("ground_team.pad_m")).unwrap_or([0.0; 3]);
+    let point = |east: f64| -> Value { [east, north, up + NEW_ROPE_HEIGHT_M].into_iter().collect::<Array>().into() };
+    vec![
+        ("name", Value::from(free)),
+        ("points_m", Value::Array([point(east + NEW_ROPE_SPAN_M), point(east + 2.0 * NEW_ROPE_SPAN_M)].into_iter().collect())),
+        ("length_m", Value::from(NEW_ROPE_LENGTH_M)),
     ]
 }
 
@@ -457,7 +475,7 @@ mod tests {
     fn exact_new_tables_are_valid() {
         for text in [PRACTICE, TWO_BRIDGES, include_str!("../../../../scenarios/drill-hover.toml")] {
             let add = |location: &str| Edit::Add { location: location.into() };
-            let tables = ["tasks", "bridges", "bridges", "wind.events", "drones", "drones"];
+            let tables = ["tasks", "bridges", "bridges", "wind.events", "drones", "drones", "ropes", "ropes"];
             let edited = apply(text, &tables.map(add)).unwrap();
             assert_eq!(problems(&edited), [], "{edited}");
         }

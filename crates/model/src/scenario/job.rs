@@ -55,6 +55,8 @@ pub struct Scenario {
     pub traffic: TrafficSpec,
     /// Drones beside the trainee's, in file order.
     pub drones: Vec<DroneSpec>,
+    /// Ropes and cables at the site, in file order.
+    pub ropes: Vec<RopeSpec>,
     /// Wind model, mean wind and gusts.
     pub wind: WindSpec,
     /// Sun, cloud cover and surface reflection.
@@ -373,6 +375,21 @@ pub struct DroneSpec {
     pub wait_s: f64,
     /// Whether it flies from the last point to the first one and repeats the path.
     pub repeat: bool,
+}
+
+/// A rope or cable that hangs at the site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RopeSpec {
+    /// Machine-readable name, unique in the job.
+    pub name: String,
+    /// The point from which it hangs, or the two points between which it does, m.
+    pub points_m: Vec<Vec3<Enu>>,
+    /// Length, m.
+    pub length_m: f64,
+    /// Diameter, m.
+    pub diameter_m: f64,
+    /// Mass per length, kg/m. The wind moves a light rope more.
+    pub mass_kg_m: f64,
 }
 
 /// A job's wind settings.

@@ -16,6 +16,7 @@ pub mod places;
 mod point;
 mod read;
 mod resolve;
+mod ropes;
 mod siblings;
 mod stain_patch;
 pub mod tasks;
@@ -33,7 +34,7 @@ pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};
 pub use job::{
     AfterCrash, BatteryModel, DefectSpec, Difficulty, DroneSpec, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION,
-    HazardSpec, INSPECTOR_EYE_HEIGHT_M, LightSpec, MAX_DEFECTS, PlacedDefect, Scenario, ScoringParams, SelectedForm,
+    HazardSpec, INSPECTOR_EYE_HEIGHT_M, LightSpec, MAX_DEFECTS, PlacedDefect, RopeSpec, Scenario, ScoringParams, SelectedForm,
     SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WeatherSpec, WindEvent, WindModel, WindSpec,
 };
 pub use lesson::{LessonPlace, LessonStep};

@@ -108,6 +108,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         lesson,
         traffic: traffic(r, root),
         drones: super::drones::read(r, root),
+        ropes: super::ropes::read(r, root),
         wind: super::weather::read(r, root),
         light: light(r, root),
         weather: super::weather::read_visible(r, root),

@@ -6,6 +6,7 @@ use super::defects::{self, PlacementContext};
 use super::drones::SiteDrones;
 use super::light::{LightModel, RayCast};
 use super::query_types::{NearestPoint, QueryTime, RayHit};
+use super::ropes::SiteRopes;
 use super::traffic::TrafficPlan;
 use super::visibility::{self, DefectView};
 use crate::frames::{Enu, Vec3};
@@ -51,7 +52,9 @@ impl Dynamics {
         };
         let placed = defects::place_defects(&scenario.defects, &ground, seed);
         let traffic = TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed);
-        Self { traffic: traffic.with_drones(SiteDrones::new(&scenario.drones, seed)), light, defects: placed }
+        let drones = SiteDrones::new(&scenario.drones, seed);
+        let ropes = SiteRopes::new(&scenario.ropes, &scenario.wind, seed);
+        Self { traffic: traffic.with_drones(drones).with_ropes(ropes), light, defects: placed }
     }
 
     /// Returns the nearest point within `max_m` of static geometry (`still`), traffic and crew.
@@ -222,6 +225,7 @@ mod tests {
             tasks,
             defects: DefectSpec { count: 10, size_factor: 1.0, ..DefectSpec::default() },
             drones: Vec::new(),
+            ropes: Vec::new(),
             traffic: TrafficSpec { cars: 12, trucks: 4, pedestrians: 8, car_speed_m_s: 13.4 },
             wind: WindSpec {
                 model: WindModel::Physical,

@@ -39,6 +39,7 @@ mod query_types;
 pub mod radio_path;
 mod reference_camera;
 pub mod reflectors;
+pub mod ropes;
 pub mod section_cut;
 pub mod steel;
 mod steel_pieces;
@@ -153,6 +154,12 @@ impl Site {
     #[must_use]
     pub fn drones(&self) -> &[drones::SiteDrone] {
         self.dynamics.traffic.drones().all()
+    }
+
+    /// Returns the ropes and cables that hang at the site.
+    #[must_use]
+    pub fn ropes(&self) -> &ropes::SiteRopes {
+        self.dynamics.traffic.ropes()
     }
 
     /// Returns the other vehicles that share the site.

@@ -10,6 +10,7 @@ use super::inspector_path::{GroundHeight, InspectorPath, InspectorPosition};
 use super::lane_track::{LaneTrack, arc_lengths, without_collinear_points};
 use super::movers::{MoverKind, MoverPlacement, boxes};
 use super::query_types::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
+use super::ropes::SiteRopes;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::random::RandomStream;
@@ -57,6 +58,7 @@ pub struct TrafficPlan {
     truck: MoverPlacement,
     closures: BridgeClosures,
     drones: SiteDrones,
+    ropes: SiteRopes,
 }
 
 impl TrafficPlan {
@@ -72,6 +74,7 @@ impl TrafficPlan {
             truck: parked_truck(team),
             closures: BridgeClosures::default(),
             drones: SiteDrones::default(),
+            ropes: SiteRopes::default(),
         };
         let roads: Vec<&Lane> = lanes.iter().filter(|l| !l.walkway && l.points_m.len() >= 2).collect();
         let walkways: Vec<&Lane> = lanes.iter().filter(|l| l.walkway && l.points_m.len() >= 2).collect();
@@ -97,6 +100,18 @@ impl TrafficPlan {
     #[must_use]
     pub fn with_drones(self, drones: SiteDrones) -> Self {
         Self { drones, ..self }
+    }
+
+    /// Returns the plan with ropes.
+    #[must_use]
+    pub fn with_ropes(self, ropes: SiteRopes) -> Self {
+        Self { ropes, ..self }
+    }
+
+    /// Returns the ropes.
+    #[must_use]
+    pub fn ropes(&self) -> &SiteRopes {
+        &self.ropes
     }
 
     /// Sets the other vehicles that share the site.
@@ -218,7 +233,7 @@ impl TrafficPlan {
         all.flat_map(|(object, kind, placed)| boxes(kind, placed).map(move |solid| (object, kind.surface(), solid))).collect()
     }
 
-    /// Returns the nearest point of traffic, crew or drones within `max_m`.
+    /// Returns the nearest point of traffic, crew, drones or ropes within `max_m`.
     #[must_use]
     pub fn nearest(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<NearestPoint> {
         let mut best: Option<NearestPoint> = None;
@@ -228,15 +243,17 @@ impl TrafficPlan {
                 best = Some(NearestPoint { distance_m, point_m, normal, surface, object });
             }
         });
-        self.drones.nearest(position_m, best.map_or(max_m, |b| b.distance_m), at).or(best)
+        let best = self.drones.nearest(position_m, best.map_or(max_m, |b| b.distance_m), at).or(best);
+        self.ropes.nearest(position_m, best.map_or(max_m, |b| b.distance_m), at).or(best)
     }
 
-    /// Returns the minimum distance of traffic and drones from a point at any time, in meters, if it is below `max_m`. Assumes
+    /// Returns the minimum distance of traffic, drones and ropes from a point at any time, in meters, if it is below `max_m`. Assumes
     /// that every vehicle type in the plan uses every lane, and that pedestrians use every walkway.
     #[must_use]
     pub fn min_distance_over_time_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let lanes_m = self.min_lane_distance_m(position_m, max_m);
-        self.drones.min_distance_over_time_m(position_m, lanes_m.unwrap_or(max_m)).or(lanes_m)
+        let drones_m = self.drones.min_distance_over_time_m(position_m, lanes_m.unwrap_or(max_m)).or(lanes_m);
+        self.ropes.min_distance_over_time_m(position_m, drones_m.unwrap_or(max_m)).or(drones_m)
     }
 
     /// Returns the minimum distance of traffic at any time, and of the crew at the start, from a point, in meters, if it is below
@@ -269,7 +286,7 @@ impl TrafficPlan {
         self.movers.iter().any(|mover| mover.kind == kind)
     }
 
-    /// Returns the first hit of a ray with traffic, crew or drones within `max_m`.
+    /// Returns the first hit of a ray with traffic, crew, drones or ropes within `max_m`.
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit> {
         let mut best: Option<RayHit> = None;
@@ -297,10 +314,11 @@ impl TrafficPlan {
                 test(ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind, placed);
             }
         }
-        self.drones.ray(origin_m, direction, best.map_or(max_m, |b| b.distance_m), at).or(best)
+        let best = self.drones.ray(origin_m, direction, best.map_or(max_m, |b| b.distance_m), at).or(best);
+        self.ropes.ray(origin_m, direction, best.map_or(max_m, |b| b.distance_m), at).or(best)
     }
 
-    /// Appends a probe's contacts with traffic, crew and drones. A contact has the object's velocity.
+    /// Appends a probe's contacts with traffic, crew, drones and ropes. A contact has the object's velocity.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         let (center_m, radius_m) = bounding_sphere(probe);
         self.visit_near(center_m, radius_m + margin_m, at, |object, surface, solid, velocity_m_s| {
@@ -309,9 +327,10 @@ impl TrafficPlan {
             });
         });
         self.drones.contacts(probe, margin_m, at, out);
+        self.ropes.contacts(probe, margin_m, at, out);
     }
 
-    /// Returns the name of an object of traffic or crew or of a drone, such as `truck 2`; `None` for other objects.
+    /// Returns the name of an object of traffic or crew, of a drone or of a rope, such as `truck 2`; `None` for other objects.
     #[must_use]
     pub fn name(&self, object: ObjectId) -> Option<String> {
         if object == INSPECTOR {
@@ -322,6 +341,9 @@ impl TrafficPlan {
         }
         if let Some(name) = self.drones.name(object) {
             return Some(format!("drone {name}"));
+        }
+        if let Some(name) = self.ropes.name(object) {
+            return Some(format!("rope {name}"));
         }
         let mover = self.movers.get(object.0.checked_sub(FIRST_TRAFFIC_OBJECT)? as usize)?;
         let kind = match mover.kind {

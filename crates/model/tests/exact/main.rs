@@ -16,5 +16,6 @@ mod imported;
 mod masonry_arch;
 mod mesh_shapes;
 mod prestressed;
+mod ropes;
 mod site;
 mod truss;

@@ -12,7 +12,7 @@ type Keys = BTreeMap<String, DocumentedKey>;
 /// Scenario fragments with keys that no shipped scenario uses. They need not be valid, because keys are recorded before
 /// values are checked.
 const EXTRA_FRAGMENTS: [&str; 4] = [
-    "[terrain]\nsource = \"flat\"\n[[wind.events]]\nkind = \"gust\"\n[[wind.events]]\nkind = \"change\"\n[[defects.placed]]\n[[briefing_pictures]]\n[[drones]]\n",
+    "[terrain]\nsource = \"flat\"\n[[wind.events]]\nkind = \"gust\"\n[[wind.events]]\nkind = \"change\"\n[[defects.placed]]\n[[briefing_pictures]]\n[[drones]]\n[[ropes]]\n",
     "[terrain]\nsource = \"valley\"\n[[bridges]]\ntype = \"model\"\n",
     "[terrain]\nsource = \"geotiff\"\n",
     "[terrain]\nsource = \"file\"\n[[tasks]]\nkind = \"free\"\n[[tasks]]\nkind = \"interlayer\"\nbridge = \"none\"\n",

@@ -7,5 +7,6 @@ mod free_flight;
 mod movers;
 mod on_bridges;
 mod pair_contact;
+mod ropes;
 mod rotor_flow;
 mod walls;

@@ -96,6 +96,10 @@ briefing-other-drones = Andere Drohnen: { $count ->
         [one] { $count } Drohne fliegt hier auf einer festen Bahn und weicht nicht aus. Behalten Sie sie im Blick und halten Sie Abstand.
        *[other] { $count } Drohnen fliegen hier auf festen Bahnen und weichen nicht aus. Behalten Sie sie im Blick und halten Sie Abstand.
     }
+briefing-ropes = Seile: { $count ->
+        [one] { $count } Seil oder Kabel hängt hier und schwingt
+       *[other] { $count } Seile oder Kabel hängen hier und schwingen
+    } im Wind. Abstandssensoren sehen sie kaum, achten Sie daher auf die Bilder.
 briefing-satellites = GNSS: Das Bauwerk verdeckt Satelliten. Unter dem Überbau kann die Position abdriften.
 briefing-compass = Kompass: Stahl verzerrt das Magnetfeld. In der Nähe von Stahlteilen kann die Richtungsanzeige falsch sein und die Position abdriften.
 briefing-wakes = Nachlauf: Hinter Pfeilern und Pylonen ist der Wind schwächer, turbulent und schwankend. An den Kanten des Überbaus ändert er sich plötzlich, und darunter ist er schneller.

@@ -102,6 +102,13 @@ briefing-other-drones = Other drones: { $count ->
         [one] { $count } drone flies a fixed path here and will not avoid you. Keep it in sight and stay clear.
        *[other] { $count } drones fly fixed paths here and will not avoid you. Keep them in sight and stay clear.
     }
+briefing-ropes = Ropes: { $count ->
+        [one] { $count } rope or cable hangs
+       *[other] { $count } ropes or cables hang
+    } at the site and { $count ->
+        [one] swings
+       *[other] swing
+    } in the wind. Range finders hardly see them, so watch the pictures.
 briefing-satellites = GNSS: the structure blocks satellites. Under the deck, the position can drift.
 briefing-compass = Compass: steel distorts the magnetic field. Near steel members, the indicated heading can be wrong, and the position can drift.
 briefing-wakes = Wakes: behind piers and towers, the wind is weaker and turbulent, and it swings from side to side. At the edges of a deck, it changes suddenly, and below the deck it is faster.

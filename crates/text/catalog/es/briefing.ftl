@@ -96,6 +96,10 @@ briefing-other-drones = Otros drones: { $count ->
         [one] { $count } dron vuela aquí por una trayectoria fija y no se aparta. No lo pierda de vista y mantenga la distancia.
        *[other] { $count } drones vuelan aquí por trayectorias fijas y no se apartan. No los pierda de vista y mantenga la distancia.
     }
+briefing-ropes = Cuerdas: aquí { $count ->
+        [one] cuelga { $count } cuerda o cable que oscila
+       *[other] cuelgan { $count } cuerdas o cables que oscilan
+    } con el viento. Los sensores de distancia apenas los ven: vigile las imágenes.
 briefing-satellites = GNSS: la estructura bloquea los satélites. Bajo el tablero, la posición puede derivar.
 briefing-compass = Brújula: el acero distorsiona el campo magnético. Cerca de elementos de acero, el rumbo indicado puede desviarse y la posición, derivar.
 briefing-wakes = Estelas: detrás de pilas y torres, el viento es más débil y turbulento, y oscila. En los bordes del tablero cambia de repente, y debajo de él es más rápido.

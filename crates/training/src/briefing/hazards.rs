@@ -36,6 +36,9 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing], 
     if !scenario.drones.is_empty() {
         lines.push(text!(language, "briefing-other-drones", count = scenario.drones.len()));
     }
+    if !scenario.ropes.is_empty() {
+        lines.push(text!(language, "briefing-ropes", count = scenario.ropes.len()));
+    }
     if scenario.hazards.sky {
         lines.push(text!(language, "briefing-real-sky"));
     } else if scenario.rules.gnss_shadow {

@@ -95,6 +95,7 @@ fn main_form(visitor: &Visitor, about: &EditorPage<'_>) -> Markup {
                 button id="download" type="submit" formaction="/scenario-editor/download" { (text!(language, "editor-download")) }
                 a.button href=(discard) { (text!(language, "editor-discard")) }
                 a href=(leave) { (text!(language, "editor-back")) }
+                @if !about.opened.is_empty() { a href={ (leave) "/briefing" } { (text!(language, "editor-briefing")) } }
             }
             div.inline {
                 label { (text!(language, "editor-new-name")) " " input id="new-name" name="new_name" maxlength="40" pattern="[a-z0-9\\-]+" autocapitalize="none" autocomplete="off"; }

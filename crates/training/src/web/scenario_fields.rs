@@ -43,6 +43,7 @@ fn heading(language: Language, id: &str) -> String {
         "defects" => text!(language, "editor-section-defects"),
         "traffic" => text!(language, "editor-section-traffic"),
         "drones" => text!(language, "editor-section-drones"),
+        "ropes" => text!(language, "editor-section-ropes"),
         "wind" => text!(language, "editor-section-wind"),
         "gusts" => text!(language, "editor-section-gusts"),
         "light" => text!(language, "editor-section-light"),
@@ -82,6 +83,7 @@ fn add_label(language: Language, repeated: &str) -> Option<String> {
         "tasks" => Some(text!(language, "editor-add-task")),
         "bridges" => Some(text!(language, "editor-add-bridge")),
         "drones" => Some(text!(language, "editor-add-drone")),
+        "ropes" => Some(text!(language, "editor-add-rope")),
         "wind.events" => Some(text!(language, "editor-add-gust")),
         _ => None,
     }

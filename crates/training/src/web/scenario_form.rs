@@ -85,6 +85,12 @@ const LAYOUT: &[Layout] = &[
         tables: &["drones[]"],
     },
     Layout {
+        id: "ropes",
+        repeated: "ropes",
+        main: &["ropes[].name", "ropes[].points_m", "ropes[].length_m"],
+        tables: &["ropes[]"],
+    },
+    Layout {
         id: "wind",
         repeated: "",
         main: &["wind.level", "wind.speed_m_s", "wind.from_deg", "wind.turbulence"],

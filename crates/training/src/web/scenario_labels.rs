@@ -3,7 +3,7 @@
 use spandrel_text::{Language, text};
 
 /// Units at the end of keys, and their symbols.
-const UNITS: [(&str, &str); 15] = [
+const UNITS: [(&str, &str); 16] = [
     ("_m_s", "m/s"),
     ("_mph", "mph"),
     ("_deg", "°"),
@@ -14,6 +14,7 @@ const UNITS: [(&str, &str); 15] = [
     ("_mm", "mm"),
     ("_px", "px"),
     ("_hz", "Hz"),
+    ("_kg_m", "kg/m"),
     ("_m", "m"),
     ("_s", "s"),
     ("_n", "N"),
@@ -249,6 +250,9 @@ fn flight_label(language: Language, name: &str) -> Option<String> {
         "spread" => text!(language, "editor-key-spread"),
         "wait" => text!(language, "editor-key-wait"),
         "repeat" => text!(language, "editor-key-repeat"),
+        "diameter" => text!(language, "editor-key-diameter"),
+        "length" => text!(language, "editor-key-length"),
+        "mass" => text!(language, "editor-key-mass"),
         "model" => text!(language, "editor-key-model"),
         "speed" => text!(language, "editor-key-speed"),
         "paper_force" => text!(language, "editor-key-paper-force"),

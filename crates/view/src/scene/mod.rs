@@ -42,6 +42,8 @@ pub enum MoverModel {
     Truck,
     /// A person.
     Person,
+    /// A segment of a rope: a cylinder of length and radius 1 along x.
+    Rope,
     /// An aircraft without its propellers. The number is its place in the scene's list of aircraft; 0 is the trainee's.
     Drone(u8),
     /// One propeller of this aircraft.
@@ -52,7 +54,7 @@ pub enum MoverModel {
 
 impl MoverModel {
     /// Models that every scene has, in the order of their meshes. Those of the aircraft follow.
-    const COMMON: [Self; 3] = [Self::Car, Self::Truck, Self::Person];
+    const COMMON: [Self; 4] = [Self::Car, Self::Truck, Self::Person, Self::Rope];
 
     /// Returns all models of a scene with this number of meshes, in the order of [`Scene::models`].
     pub fn all(mesh_count: usize) -> impl Iterator<Item = Self> {
@@ -68,6 +70,7 @@ impl MoverModel {
             Self::Car => 0,
             Self::Truck => 1,
             Self::Person => 2,
+            Self::Rope => 3,
             Self::Drone(k) => of_aircraft(k, 0),
             Self::Propeller(k) => of_aircraft(k, 1),
             Self::PropellerDisk(k) => of_aircraft(k, 2),
@@ -223,7 +226,7 @@ impl Scene {
         parts.extend(plants::parts(scenario, site, quality));
         report(LoadingStep::Water);
         let (vehicles, drone_airframes) = distinct_aircraft(site, vehicle);
-        let common = [props::car(rounds), props::truck(rounds), props::person(rounds)];
+        let common = [props::car(rounds), props::truck(rounds), props::person(rounds), props::rope(rounds)];
         let of_aircraft = |vehicle: &&Vehicle| [drone::body(vehicle), drone::propeller(vehicle), drone::propeller_disk(vehicle)];
         Self {
             parts,
@@ -283,6 +286,7 @@ impl Scene {
             MoverModel::Person,
             place_on_ground(inspector.feet_m, inspector.forward, OPEN_AIR_LIGHT).with_material(props::VEST_COLOR),
         ));
+        ropes(site, at, &mut all);
         for (other, airframe) in site.drones().iter().zip(&self.drone_airframes) {
             let pose = Pose { position_m: other.at(at).position_m, ned_from_frd: other.attitude() };
             self.aircraft(site, (*airframe, &DronePose { pose, spinning: true }), at, &mut all);
@@ -311,6 +315,21 @@ impl Scene {
             if drone.spinning {
                 out.push((MoverModel::PropellerDisk(airframe), Instance::placed(hub, axes, around)));
             }
+        }
+    }
+}
+
+/// Adds the segments of the ropes.
+fn ropes(site: &Site, at: QueryTime, out: &mut Vec<(MoverModel, Instance)>) {
+    for (rope, points_m) in site.ropes().points_m(at) {
+        let around = points_m.get(points_m.len() / 2).map_or(OPEN_AIR_LIGHT, |middle_m| bake::around(site, *middle_m, at));
+        for pair in points_m.windows(2) {
+            let along = pair[1] - pair[0];
+            let upright = Vec3::new(0.0, 0.0, 1.0);
+            let helper = if along.horizontal_norm() > along.up().abs() { upright } else { Vec3::new(1.0, 0.0, 0.0) };
+            let side = helper.cross(along).unit();
+            let axes = [along, side * rope.radius_m(), along.cross(side).unit() * rope.radius_m()];
+            out.push((MoverModel::Rope, Instance::placed(pair[0], axes, around)));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Cars, trucks, and people, each within its collision box (`site::movers`): x forward, y left, z up from the ground.
+//! Ropes, cars, trucks, and people, the latter each within its collision box (`site::movers`): x forward, y left, z up from the ground.
 
 use super::super::mesh::{Material, Mesh, SurfaceFinish};
 use spandrel_model::frames::{Enu, Vec3};
@@ -14,6 +14,7 @@ const TAIL_LIGHT: SurfaceFinish = SurfaceFinish::new(Material::Glass, [120, 6, 4
 const BOX: SurfaceFinish = SurfaceFinish::new(Material::Enamel, [150, 150, 146]);
 const SKIN: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [120, 72, 50]);
 const PANTS: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [16, 20, 34]);
+const ROPE: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [150, 62, 12]);
 const HAIR: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [22, 14, 8]);
 
 /// Common car colors, linear.
@@ -161,6 +162,13 @@ pub fn person(rounds: RoundDetail) -> Mesh {
     mesh.round((p(0.0, 0.0, 1.44), 0.055), (p(0.0, 0.0, 1.54), 0.05), rounds.sides(8), SKIN);
     mesh.sphere_with_detail(rounds.ball(), p(0.01, 0.0, 1.62), [0.095, 0.08, 0.115], 0.0, SKIN);
     mesh.sphere_with_detail(rounds.ball(), p(-0.015, 0.0, 1.665), [0.098, 0.086, 0.085], 0.0, HAIR);
+    mesh
+}
+
+/// Builds a segment of a rope: a cylinder of length and radius 1.
+pub fn rope(rounds: RoundDetail) -> Mesh {
+    let mut mesh = Mesh::default();
+    mesh.round((p(0.0, 0.0, 0.0), 1.0), (p(1.0, 0.0, 0.0), 1.0), rounds.sides(8), ROPE);
     mesh
 }
 

@@ -7,7 +7,7 @@ use spandrel_model::defect_codes;
 use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
-use spandrel_model::scenario::{DroneSpec, PlacedDefect};
+use spandrel_model::scenario::{DroneSpec, PlacedDefect, RopeSpec};
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk_job, girder_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
@@ -133,6 +133,30 @@ fn regress_other_drones_at_the_site() {
     let shot = studio.seen(at(-59.0, -66.0, 9.5), at(-50.0, -56.0, 10.0), 50.0, false, SCENE_PX);
     let picture = studio.draw(&shot);
     wall.check("other-drones", &picture);
+    wall.assert_no_errors();
+}
+
+/// A rope between two points in front of the arch, and one that hangs beside it.
+#[test]
+fn regress_ropes_at_the_site() {
+    let mut job = sunny_job();
+    let rope = |name: &str, points_m, length_m, diameter_m| RopeSpec {
+        name: name.into(),
+        points_m,
+        length_m,
+        diameter_m,
+        mass_kg_m: 0.3,
+    };
+    job.ropes = vec![
+        rope("strung", vec![at(-58.0, -62.0, 12.0), at(-50.0, -60.0, 12.5)], 9.0, 0.03),
+        rope("hanging", vec![at(-55.5, -62.5, 12.5)], 2.5, 0.05),
+    ];
+    let mut studio = Studio::new(job, 7, "medium", SimTime::from_ms(95_000));
+    studio.without_defects();
+    let mut wall = Gallery::default();
+    let shot = studio.seen(at(-59.0, -66.0, 9.5), at(-50.0, -56.0, 11.5), 60.0, false, SCENE_PX);
+    let picture = studio.draw(&shot);
+    wall.check("ropes", &picture);
     wall.assert_no_errors();
 }
 
