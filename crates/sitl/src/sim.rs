@@ -216,7 +216,9 @@ impl Sim {
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
         Self {
             model: Arc::new(
-                AirframeModel::new(vehicle, scenario.rules.battery).with_battery_at(scenario.rules.battery_temperature_c),
+                AirframeModel::new(vehicle, scenario.rules.battery)
+                    .with_battery_at(scenario.rules.battery_temperature_c)
+                    .with_rotor_spread(seed),
             ),
             state: physics::PhysicsState::at_rest(start, yaw),
             sensors: Sensors::new(&with_sensors(vehicle, sensors), SensorSite::of(scenario, site.members()), seed),

@@ -24,6 +24,7 @@ pub fn quad() -> Vehicle {
             time_constant_s: 0.03,
             max_speed_rad_s: 1000.0,
             idle_speed_rad_s: 100.0,
+            speed_spread: 0.0,
             inertia_kg_m2: 4e-5,
             drag_coefficient_n_s2_m: 4e-5,
             efficiency: 0.5,

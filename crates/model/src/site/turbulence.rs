@@ -1,4 +1,5 @@
-//! Dryden turbulence at low altitude (MIL-F-8785C): intensities, length scales, and the filters that shape white noise.
+//! Dryden turbulence at low altitude: length scales, intensities over land (MIL-F-8785C) and over open water, and the filters that
+//! shape white noise.
 
 use crate::math;
 use crate::random::RandomStream;
@@ -7,12 +8,23 @@ use crate::random::RandomStream;
 const M_PER_FT: f64 = 0.3048;
 /// Height range of the low-altitude model in MIL-F-8785C, section 3.7.3.4, ft.
 const DRYDEN_HEIGHT_FT: (f64, f64) = (10.0, 1000.0);
+/// Height of the wind speed in MIL-F-8785C, m (20 ft).
+pub(super) const REFERENCE_HEIGHT_M: f64 = 20.0 * M_PER_FT;
+/// Roughness length of open water, m (estimate; typical order of magnitude for calm to moderate sea, see
+/// docs/src/reference/domain.md, "Wind and turbulence").
+pub(super) const WATER_ROUGHNESS_M: f64 = 0.0003;
+/// Standard deviations across the mean wind and vertically, relative to the one along it (Solari and Piccardo, "Probabilistic 3-D
+/// turbulence modeling for gust buffeting of structures", Probabilistic Engineering Mechanics 16, 2001).
+const WATER_ACROSS: f64 = 0.75;
+const WATER_VERTICAL: f64 = 0.5;
 
 /// Standard deviations (m/s) and length scales (m) of the Dryden model at one height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dryden {
-    /// Standard deviation along and across the mean wind, m/s.
-    pub sigma_horizontal_m_s: f64,
+    /// Standard deviation along the mean wind, m/s.
+    pub sigma_along_m_s: f64,
+    /// Horizontal standard deviation across the mean wind, m/s.
+    pub sigma_across_m_s: f64,
     /// Vertical standard deviation, m/s.
     pub sigma_vertical_m_s: f64,
     /// Length scale along and across the mean wind, m.
@@ -22,17 +34,44 @@ pub struct Dryden {
 }
 
 impl Dryden {
-    /// Returns the low-altitude model of MIL-F-8785C at a height above the surface, for a mean wind speed at 20 ft.
+    /// Returns the low-altitude model of MIL-F-8785C at a height above land, for a mean wind speed at 20 ft.
     #[must_use]
-    pub fn at(height_m: f64, wind_20ft_m_s: f64) -> Self {
+    pub fn over_land(height_m: f64, wind_20ft_m_s: f64) -> Self {
         let h_ft = (height_m / M_PER_FT).clamp(DRYDEN_HEIGHT_FT.0, DRYDEN_HEIGHT_FT.1);
         let shape = 0.177 + 0.000_823 * h_ft;
         let sigma_vertical_m_s = 0.1 * wind_20ft_m_s;
+        let sigma_horizontal_m_s = sigma_vertical_m_s / math::pow(shape, 0.4);
         Self {
-            sigma_horizontal_m_s: sigma_vertical_m_s / math::pow(shape, 0.4),
+            sigma_along_m_s: sigma_horizontal_m_s,
+            sigma_across_m_s: sigma_horizontal_m_s,
             sigma_vertical_m_s,
             horizontal_length_scale_m: h_ft / math::pow(shape, 1.2) * M_PER_FT,
             vertical_length_scale_m: h_ft * M_PER_FT,
+        }
+    }
+
+    /// Returns the model at a height above open water, for a mean wind speed at 20 ft. Along the wind, the standard deviation is the
+    /// mean speed divided by ln(z/z0) at each height z, and so the same at all (EN 1991-1-4, 4.4). The length scales are those over
+    /// land (estimate).
+    #[must_use]
+    pub fn over_water(height_m: f64, wind_20ft_m_s: f64) -> Self {
+        let sigma_along_m_s = wind_20ft_m_s / math::ln(REFERENCE_HEIGHT_M / WATER_ROUGHNESS_M);
+        Self {
+            sigma_along_m_s,
+            sigma_across_m_s: WATER_ACROSS * sigma_along_m_s,
+            sigma_vertical_m_s: WATER_VERTICAL * sigma_along_m_s,
+            ..Self::over_land(height_m, wind_20ft_m_s)
+        }
+    }
+
+    /// Returns the model near a shore, from open water (share of land 0) to land (1).
+    pub(super) fn near_shore(height_m: f64, wind_20ft_m_s: f64, share_of_land: f64) -> Self {
+        let (land, water) = (Self::over_land(height_m, wind_20ft_m_s), Self::over_water(height_m, wind_20ft_m_s));
+        Self {
+            sigma_along_m_s: math::lerp(water.sigma_along_m_s, land.sigma_along_m_s, share_of_land),
+            sigma_across_m_s: math::lerp(water.sigma_across_m_s, land.sigma_across_m_s, share_of_land),
+            sigma_vertical_m_s: math::lerp(water.sigma_vertical_m_s, land.sigma_vertical_m_s, share_of_land),
+            ..land
         }
     }
 }
@@ -104,12 +143,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn val_turbulence_matches_the_table_at_10_m() {
+    fn val_turbulence_over_land_matches_the_table_at_10_m() {
         // MIL-F-8785C low-altitude Dryden model (docs/src/reference/domain.md, "Wind and turbulence"): W20 11 mph, 10 m: L_u 67
         // m, sigma_u 0.93, sigma_w 0.49 m/s; tolerance half a unit of the last printed digit.
-        let d = Dryden::at(10.0, 11.0 * math::M_S_PER_MPH);
+        let d = Dryden::over_land(10.0, 11.0 * math::M_S_PER_MPH);
         assert!((d.horizontal_length_scale_m - 67.0).abs() < 0.5, "{}", d.horizontal_length_scale_m);
-        assert!((d.sigma_horizontal_m_s - 0.93).abs() < 0.005, "{}", d.sigma_horizontal_m_s);
+        assert!((d.sigma_along_m_s - 0.93).abs() < 0.005, "{}", d.sigma_along_m_s);
         assert!((d.sigma_vertical_m_s - 0.49).abs() < 0.005);
+    }
+    #[test]
+    fn val_turbulence_over_open_water_has_the_published_intensity_at_10_m() {
+        // Intensity 1/ln(10 m/0.0003 m) along the wind (EN 1991-1-4, 4.4); 75% and 50% of it across and vertically (Solari and Piccardo
+        // 2001). Tolerance: half a unit of the last digit of 9.6%.
+        const TOLERANCE: f64 = 5e-4;
+        let d = Dryden::over_water(10.0, 11.0 * math::M_S_PER_MPH);
+        let mean_m_s = 11.0 * math::M_S_PER_MPH * super::super::wind::profile(10.0);
+        assert!((d.sigma_along_m_s / mean_m_s - 0.096).abs() < TOLERANCE, "{}", d.sigma_along_m_s / mean_m_s);
+        assert!((d.sigma_across_m_s / mean_m_s - 0.072).abs() < TOLERANCE);
+        assert!((d.sigma_vertical_m_s / mean_m_s - 0.048).abs() < TOLERANCE);
+        assert_eq!(Dryden::near_shore(10.0, 5.0, 0.0), Dryden::over_water(10.0, 5.0));
+        let (shore, land) = (Dryden::near_shore(10.0, 5.0, 1.0), Dryden::over_land(10.0, 5.0));
+        assert!((shore.sigma_along_m_s - land.sigma_along_m_s).abs() < 1e-12 && (shore.sigma_across_m_s - land.sigma_across_m_s).abs() < 1e-12);
     }
 }

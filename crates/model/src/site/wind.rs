@@ -1,11 +1,11 @@
-//! Wind field: mean profile over water and ground, weather changes, 1-cosine gusts, and Dryden turbulence (MIL-F-8785C,
-//! low altitude).
+//! Wind field: mean profile over water and ground, weather changes, 1-cosine gusts, and Dryden turbulence (over land that of
+//! MIL-F-8785C at low altitude, over water that of open water).
 //!
 //! Turbulence depends on the motion of the vehicle and therefore has state, which is plain data and part of a snapshot.
 //! The mean profile is that of open water or, below 20 ft over land, that of grass. [`super::wakes`] adds the wakes of piers
 //! and the flow around decks; other effects of structures are not modeled.
 
-use super::turbulence::{Dryden, FirstOrderFilter, SecondOrderFilter};
+use super::turbulence::{Dryden, FirstOrderFilter, REFERENCE_HEIGHT_M, SecondOrderFilter, WATER_ROUGHNESS_M};
 use crate::frames::{Ned, Vec3};
 use crate::math;
 use crate::random::RandomStream;
@@ -16,18 +16,16 @@ use crate::time::SimTime;
 pub const SAMPLE_RATE_HZ: i64 = 100;
 /// Interval between wind samples.
 pub const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
-/// Roughness length of open water, m (estimate; typical order of magnitude for calm to moderate sea, see
-/// docs/src/reference/domain.md, "Wind and turbulence").
-const WATER_ROUGHNESS_M: f64 = 0.0003;
 /// Roughness length of open ground with grass, m (WMO guide to instruments, class 3: 0.03 m).
 const GROUND_ROUGHNESS_M: f64 = 0.03;
-/// Reference height of the mean wind speed, m (20 ft).
-const REFERENCE_HEIGHT_M: f64 = 6.096;
 /// Height below which turbulence is proportional to the mean wind, m: 10 ft, the lower limit of MIL-F-8785C (estimate: constant
 /// relative intensity).
 const MIN_TURBULENCE_HEIGHT_M: f64 = 3.048;
 /// Height below which the profile is constant, m (estimate: wave height).
 const MIN_PROFILE_HEIGHT_M: f64 = 0.5;
+/// Length of the way along which the turbulence of the air adapts to another surface, m (estimate: a turbulent layer grows by about a
+/// tenth of the way behind a shore, so that this one reaches 10 m).
+const SHORE_LENGTH_M: f64 = 100.0;
 /// Number of intervals in which a change of the wind is integrated.
 const DRIFT_INTERVALS: u32 = 8;
 /// Minimum drift speed of the turbulence past the vehicle, m/s (estimate; keeps the time scale finite in still air).
@@ -52,6 +50,8 @@ pub struct WindField {
     across: SecondOrderFilter,
     vertical: SecondOrderFilter,
     over_ground: bool,
+    /// Share of land in the turbulence; none before the first sample.
+    share_of_land: Option<f64>,
     next_sample: SimTime,
     previous_velocity_m_s: Vec3<Ned>,
     current_velocity_m_s: Vec3<Ned>,
@@ -72,6 +72,7 @@ impl WindField {
             across,
             vertical,
             over_ground: false,
+            share_of_land: None,
             next_sample: SimTime::ZERO,
             previous_velocity_m_s: Vec3::zero(),
             current_velocity_m_s: Vec3::zero(),
@@ -95,7 +96,7 @@ impl WindField {
         }
     }
 
-    /// Sets whether the vehicle is over ground, which slows the wind near it, or over water.
+    /// Sets whether the vehicle is over ground, which slows the wind near it and makes it more turbulent, or over water.
     pub fn set_over_ground(&mut self, over_ground: bool) {
         self.over_ground = over_ground;
     }
@@ -151,19 +152,31 @@ impl WindField {
         if self.wind.turbulence <= 0.0 {
             return mean_velocity;
         }
-        let dryden = Dryden::at(height_m, mean.speed_m_s);
         // Turbulence drifts with the mean wind (Taylor's hypothesis), so a hovering drone also moves through it.
         let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(MIN_DRIFT_SPEED_M_S);
         let traveled_m = drift * SAMPLE_PERIOD.s();
+        let share_of_land = self.share_of_land_after(traveled_m);
+        let dryden = Dryden::near_shore(height_m, mean.speed_m_s, share_of_land);
         let u = self.along.step(traveled_m / dryden.horizontal_length_scale_m, &mut self.stream);
         let v = self.across.step(traveled_m / dryden.horizontal_length_scale_m, &mut self.stream);
         let w = self.vertical.step(traveled_m / dryden.vertical_length_scale_m, &mut self.stream);
         let along = direction_toward(mean.from_rad);
         let across = Vec3::new(-along.east(), along.north(), 0.0);
         let near_surface = (self.profile(height_m) / self.profile(MIN_TURBULENCE_HEIGHT_M)).min(1.0);
-        let horizontal = dryden.sigma_horizontal_m_s * self.wind.turbulence * near_surface;
-        let vertical = dryden.sigma_vertical_m_s * self.wind.turbulence * near_surface;
-        mean_velocity + along * (u * horizontal) + across * (v * horizontal) + Vec3::new(0.0, 0.0, w * vertical)
+        let scale = self.wind.turbulence * near_surface;
+        mean_velocity
+            + along * (u * dryden.sigma_along_m_s * scale)
+            + across * (v * dryden.sigma_across_m_s * scale)
+            + Vec3::new(0.0, 0.0, w * dryden.sigma_vertical_m_s * scale)
+    }
+
+    /// Returns the share of land in the turbulence after the air has traveled past the vehicle.
+    fn share_of_land_after(&mut self, traveled_m: f64) -> f64 {
+        let here = if self.over_ground { 1.0 } else { 0.0 };
+        let before = self.share_of_land.unwrap_or(here);
+        let share = here + (before - here) * math::exp(-traveled_m / SHORE_LENGTH_M);
+        self.share_of_land = Some(share);
+        share
     }
 }
 
@@ -231,10 +244,10 @@ fn drift_between(wind: &WindSpec, (from_s, to_s): (f64, f64)) -> Vec3<Ned> {
     times_s.fold(Vec3::zero(), |sum, time_s| sum + velocity_at(wind, SimTime::from_s(time_s)) * (0.5 * step_s))
 }
 
-/// Returns the standard deviation of the wind speed at 20 ft relative to the mean speed.
+/// Returns the standard deviation of the wind speed at 20 ft above open water relative to the mean speed.
 #[must_use]
 pub fn gust_intensity(wind: &WindSpec) -> f64 {
-    Dryden::at(REFERENCE_HEIGHT_M, 1.0).sigma_horizontal_m_s * wind.turbulence
+    Dryden::over_water(REFERENCE_HEIGHT_M, 1.0).sigma_along_m_s * wind.turbulence
 }
 
 /// Returns the sum of all 1-cosine gusts at a time. A gust has the speed peak/2 (1 - cos(2 pi t/duration)) while it lasts.
@@ -293,12 +306,12 @@ mod tests {
         // Tolerance on the correlation coefficient at a lag of one time scale: five standard errors.
         const CORRELATION_TOLERANCE: f64 = 0.05;
         let samples = turbulence(&wind(), 30_000, HEIGHT_M, AIRSPEED_M_S);
-        let d = Dryden::at(HEIGHT_M, 4.917);
+        let d = Dryden::over_water(HEIGHT_M, 4.917);
         // Wind from the north moves the air south. At a lag of one time scale, the correlation of a first-order filter is 1/e,
         // and that of a second-order filter 1/(2e).
         let axes: [(Vec<f64>, f64, f64, f64); 3] = [
-            (samples.iter().map(|s| s.north()).collect(), d.sigma_horizontal_m_s, d.horizontal_length_scale_m, 1.0),
-            (samples.iter().map(|s| s.east()).collect(), d.sigma_horizontal_m_s, d.horizontal_length_scale_m, 0.5),
+            (samples.iter().map(|s| s.north()).collect(), d.sigma_along_m_s, d.horizontal_length_scale_m, 1.0),
+            (samples.iter().map(|s| s.east()).collect(), d.sigma_across_m_s, d.horizontal_length_scale_m, 0.5),
             (samples.iter().map(|s| s.down()).collect(), d.sigma_vertical_m_s, d.vertical_length_scale_m, 0.5),
         ];
         for (values, sigma, length, factor) in axes {
@@ -310,6 +323,18 @@ mod tests {
             let measured = correlation(&values, lag as usize) / variance;
             assert!((measured - expected).abs() < CORRELATION_TOLERANCE, "{measured} against {expected}");
         }
+    }
+
+    #[test]
+    fn exact_turbulence_adapts_to_land_along_the_way_behind_a_shore() {
+        let mut field = WindField::new(&wind(), 1);
+        assert_eq!(field.share_of_land_after(1.0), 0.0);
+        field.set_over_ground(true);
+        let share = (0..100).map(|_| field.share_of_land_after(0.01 * SHORE_LENGTH_M)).last().unwrap();
+        assert!((share - (1.0 - math::exp(-1.0))).abs() < 1e-12, "{share}");
+        let mut inland = WindField::new(&wind(), 1);
+        inland.set_over_ground(true);
+        assert_eq!(inland.share_of_land_after(1.0), 1.0, "a flight that begins over land has its turbulence at once");
     }
 
     #[test]

@@ -45,6 +45,7 @@ mod tests {
         time_constant_s: 0.05,
         max_speed_rad_s: 900.0,
         idle_speed_rad_s: 100.0,
+        speed_spread: 0.0,
         inertia_kg_m2: 0.0,
         drag_coefficient_n_s2_m: 0.0,
         efficiency: 0.6,

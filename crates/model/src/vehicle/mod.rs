@@ -104,6 +104,8 @@ pub struct RotorModel {
     pub max_speed_rad_s: f64,
     /// Speed at zero command while armed, rad/s.
     pub idle_speed_rad_s: f64,
+    /// Standard deviation of the rotors' speeds at equal commands, relative to the speed: motors and speed controllers differ.
+    pub speed_spread: f64,
     /// Rotor moment of inertia about its axis, kg m².
     pub inertia_kg_m2: f64,
     /// In-plane rotor drag (H-force) per rotor: N per (rad/s) per (m/s) of in-plane airspeed.

@@ -94,6 +94,7 @@ fn rotors(r: &mut Reader, root: &mut Section) -> (Vec<Rotor>, RotorModel) {
         time_constant_s: r.number(&mut s, "time_constant_s", (0.005, 0.5), None),
         max_speed_rad_s: r.number(&mut s, "max_speed_rad_s", (50.0, 10_000.0), None),
         idle_speed_rad_s: r.number(&mut s, "idle_speed_rad_s", (0.0, 2_000.0), None),
+        speed_spread: r.number(&mut s, "speed_spread", (0.0, 0.05), Some(0.0)),
         inertia_kg_m2: r.number(&mut s, "inertia_kg_m2", (0.0, 0.1), None),
         drag_coefficient_n_s2_m: r.number(&mut s, "drag_coefficient_n_s2_m", (0.0, 0.01), None),
         efficiency: r.number(&mut s, "efficiency", (0.1, 1.0), None),

@@ -4,8 +4,8 @@ use super::control::airframe::Airframe;
 use super::control::landed::{FlightPhase, LandingInput, PhaseChange};
 use super::control::shaper::MotionLimits;
 use super::control::{Control, ControlInput};
-use super::estimator::Estimator;
 use super::estimator::estimate::Estimate;
+use super::estimator::{Estimator, Pose};
 use super::events::{AutopilotEvent, EventQueue, Severity};
 use super::external_input::{OffboardSetpoint, Sticks};
 use super::failsafe::Failsafe;
@@ -26,7 +26,7 @@ use super::status::AutopilotStatus;
 use super::tuning::Tuning;
 use crate::physics::Actuators;
 use crate::sensors::{BatteryReading, Readings};
-use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
+use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::Geo;
 use spandrel_model::scenario::SessionRules;
 use spandrel_model::time::SimTime;
@@ -338,15 +338,15 @@ impl Autopilot {
     }
 
     /// Continues after a respawn in the air: resets the estimator and controllers to this state, armed. Keeps a manual
-    /// mode; otherwise switches to Hold.
-    pub fn respawn(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
-        self.continue_from(position_m, velocity_m_s, attitude, now);
+    /// mode; otherwise switches to Hold. The aircraft was at `from_m`.
+    pub fn respawn(&mut self, from_m: Vec3<Ned>, pose: &Pose, now: SimTime) {
+        self.continue_at(from_m, pose, now);
         self.events.push(Severity::Warning, "Respawned at last safe hover");
     }
 
     /// The same as [`Self::respawn`] without a text, for a rewind.
-    pub fn continue_from(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
-        self.estimator.reset_to_pose(position_m, velocity_m_s, attitude, now);
+    pub fn continue_at(&mut self, from_m: Vec3<Ned>, pose: &Pose, now: SimTime) {
+        self.estimator.reset_to_pose(from_m, pose, now);
         self.estimate = self.estimator.estimate();
         self.armed = true;
         self.failsafe.continue_in_air();

@@ -18,6 +18,7 @@ pub(crate) mod testing;
 mod tuning;
 
 pub use self::core::{Autopilot, CONTROL_HZ};
+pub use self::estimator::Pose;
 pub use self::estimator::estimate::Estimate;
 pub use self::events::{AutopilotEvent, Severity};
 pub use self::external_input::{OffboardSetpoint, Sticks};

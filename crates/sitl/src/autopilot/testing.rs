@@ -22,6 +22,7 @@ pub fn vehicle_with(sensors: SensorSpec) -> Vehicle {
             time_constant_s: 0.04,
             max_speed_rad_s: 890.0,
             idle_speed_rad_s: 120.0,
+            speed_spread: 0.0,
             inertia_kg_m2: 3.5e-5,
             drag_coefficient_n_s2_m: 3.0e-5,
             efficiency: 0.55,

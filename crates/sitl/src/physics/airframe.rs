@@ -8,6 +8,7 @@ use super::vortex_ring::VortexRing;
 use super::walls::Walls;
 use nalgebra::{Vector2, Vector3};
 use spandrel_model::math;
+use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::BatteryModel;
 use spandrel_model::site::aircraft_hull::{BodyProbe, hull_radius_m, probes};
 use spandrel_model::vehicle::{AirDensity, BatterySpec, Lamp, Rotor, RotorModel, SurfaceEffects, Vehicle};
@@ -15,6 +16,8 @@ use std::sync::Arc;
 
 /// Step for which the decay of the rotor speeds is computed in advance, s.
 const USUAL_STEP_S: f64 = 1e-3;
+/// Largest deviation of a rotor's speed, in standard deviations: makers sort out worse motors.
+const MAX_SPREAD_SIGMAS: f64 = 2.5;
 
 fn decay(rotor: &RotorModel, dt_s: f64) -> [f64; 2] {
     [math::exp(-0.5 * dt_s / rotor.time_constant_s), math::exp(-dt_s / rotor.time_constant_s)]
@@ -32,6 +35,8 @@ pub struct AirframeModel {
     pub gravity_scale: f64,
     pub(super) rotors: Vec<Rotor>,
     pub(super) rotor: RotorModel,
+    /// Speed of each rotor at a command relative to the nominal one.
+    speed_factors: [f64; MAX_ROTORS],
     usual_decay: [f64; 2],
     pub(super) rotor_groups: Vec<RotorGroup>,
     pub(super) inflow: Inflow,
@@ -66,6 +71,7 @@ impl AirframeModel {
             gravity_scale: 1.0,
             rotors: vehicle.rotors.clone(),
             rotor: vehicle.rotor,
+            speed_factors: [1.0; MAX_ROTORS],
             usual_decay: decay(&vehicle.rotor, USUAL_STEP_S),
             rotor_groups: RotorGroup::all(&vehicle.rotors),
             inflow: Inflow::of(&vehicle.aerodynamics),
@@ -102,6 +108,16 @@ impl AirframeModel {
         self
     }
 
+    /// Returns the model with rotors that differ as the motors and speed controllers of one aircraft do, drawn for a seed.
+    #[must_use]
+    pub fn with_rotor_spread(mut self, seed: u64) -> Self {
+        let mut stream = RandomStream::new(seed, "rotors.spread");
+        for factor in &mut self.speed_factors {
+            *factor = 1.0 + self.rotor.speed_spread * stream.normal().clamp(-MAX_SPREAD_SIGMAS, MAX_SPREAD_SIGMAS);
+        }
+        self
+    }
+
     /// Returns the density of the air around the aircraft at an altitude above mean sea level, kg/m³.
     #[must_use]
     pub fn air_density_kg_m3(&self, altitude_m: f64) -> f64 {
@@ -134,9 +150,40 @@ impl AirframeModel {
             return out;
         }
         let top = self.rotor.max_speed_rad_s * battery.speed_factor;
-        for (target, command) in out.iter_mut().zip(actuators.motors).take(self.rotors.len()) {
-            *target = self.rotor.idle_speed_rad_s + command.clamp(0.0, 1.0) * (top - self.rotor.idle_speed_rad_s).max(0.0);
+        let commands = actuators.motors.iter().zip(self.speed_factors);
+        for (target, (command, factor)) in out.iter_mut().zip(commands).take(self.rotors.len()) {
+            let nominal = self.rotor.idle_speed_rad_s + command.clamp(0.0, 1.0) * (top - self.rotor.idle_speed_rad_s).max(0.0);
+            *target = factor * nominal;
         }
         out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::autopilot::testing::vehicle_with;
+    use crate::sensors::tests::error_free_sensors;
+
+    fn speeds(spread: f64, seed: u64) -> [f64; MAX_ROTORS] {
+        let mut vehicle = vehicle_with(error_free_sensors());
+        vehicle.rotor.speed_spread = spread;
+        let model = AirframeModel::new(&vehicle, BatteryModel::Paper).with_rotor_spread(seed);
+        model.target_rotor_speeds(&Actuators { armed: true, motors: [0.5; MAX_ROTORS] }, &BatteryState::FULL)
+    }
+
+    #[test]
+    fn exact_rotor_speeds_differ_by_their_spread() {
+        const SPREAD: f64 = 0.01;
+        // Relative tolerance: four standard errors of the deviation of 1,600 speeds, and 2% that the cut at 2.5 deviations takes.
+        const TOLERANCE: f64 = 0.09;
+        let nominal = speeds(0.0, 1)[0];
+        let deviations: Vec<f64> =
+            (0..400).flat_map(|seed| speeds(SPREAD, seed).into_iter().take(4)).map(|s| s / nominal - 1.0).collect();
+        let square = deviations.iter().map(|d| d * d).sum::<f64>() / deviations.len() as f64;
+        assert!((square.sqrt() / SPREAD - 1.0).abs() < TOLERANCE, "{}", square.sqrt());
+        assert_eq!(speeds(SPREAD, 3), speeds(SPREAD, 3));
+        assert_ne!(speeds(SPREAD, 3), speeds(SPREAD, 4));
+        assert!(speeds(0.0, 3).iter().take(4).all(|speed| *speed == nominal));
     }
 }

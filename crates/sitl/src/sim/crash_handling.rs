@@ -2,10 +2,11 @@
 
 use super::controller::Controller;
 use super::{CLEARANCE_SEARCH_RADIUS_M, Sim, SimEvent};
+use crate::autopilot::Pose;
 use crate::physics;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::dialect::MavSeverity;
-use spandrel_model::frames::{Ned, Rotation, Vec3};
+use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::scenario::AfterCrash;
 use spandrel_model::site::Surface;
 
@@ -154,12 +155,12 @@ impl Sim {
             self.respawn_on_pad();
             return;
         }
+        let from_m = self.state.rigid.position_m;
         let (position_m, yaw_rad) = self.last_safe_hover;
         self.place_after_crash(position_m, yaw_rad, self.model.hover_rotor_rad_s());
-        let attitude = Rotation::from_euler(0.0, 0.0, yaw_rad);
-        let now = self.now;
+        let (pose, now) = (self.pose(), self.now);
         if let Controller::Builtin(own) = &mut self.controller {
-            own.autopilot.respawn(position_m, Vec3::zero(), attitude, now);
+            own.autopilot.respawn(from_m, &pose, now);
         }
     }
 
@@ -176,6 +177,12 @@ impl Sim {
         self.state.place(position_m, yaw_rad);
         self.state.rigid.rotor_rad_s = [rotor_rad_s; physics::MAX_ROTORS];
         self.sensors.discard_pending();
+    }
+
+    /// Returns the true pose and velocity.
+    pub(super) fn pose(&self) -> Pose {
+        let rigid = &self.state.rigid;
+        Pose { position_m: rigid.position_m, velocity_m_s: rigid.velocity_m_s, attitude: rigid.attitude }
     }
 
     /// Ends a contact and its consequences, because the aircraft is now at another place.
@@ -328,7 +335,7 @@ mod tests {
 
     #[test]
     fn regress_gentle_upright_landing_does_not_respawn() {
-        let tipped = Rotation::from_euler(1.2, 0.0, 0.0);
+        let tipped = spandrel_model::frames::Rotation::from_euler(1.2, 0.0, 0.0);
         for (surface, impact_m_s, attitude, back) in [
             (Surface::Terrain, 0.7, None, false),
             (Surface::Bridge, 0.7, None, false),

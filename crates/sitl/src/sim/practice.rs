@@ -97,10 +97,11 @@ impl Sim {
     /// failures, pictures, counters.
     fn rewind(&mut self, by: SimTime) {
         let Some((earlier, undone)) = self.practice.take(self.now, by) else { return };
+        let from_m = self.state.rigid.position_m;
         self.state.restore(&earlier.physics);
         self.sensors.discard_pending();
         self.last_safe_hover = earlier.safe_hover;
-        self.continue_from_new_place();
+        self.continue_at_new_place(from_m);
         self.events.push_back(SimEvent::Rewind { undone });
         self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("Rewound {:.0} s", undone.s()));
     }
@@ -109,9 +110,10 @@ impl Sim {
     /// present. Scores count it as a rewind.
     fn move_to_task(&mut self, number: u32) {
         let Some((position_m, yaw_rad)) = self.task_start(number) else { return };
+        let from_m = self.state.rigid.position_m;
         self.place_at_rest(position_m, yaw_rad, self.model.hover_rotor_rad_s());
         self.last_safe_hover = (position_m, yaw_rad);
-        self.continue_from_new_place();
+        self.continue_at_new_place(from_m);
         self.events.push_back(SimEvent::MoveToTask { task: number });
         self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("At the start of task {number}"));
     }
@@ -128,13 +130,13 @@ impl Sim {
 
     /// Ends contact and crash, starts the estimator at the new place, and lets the simulation run on until every client has the
     /// new position.
-    fn continue_from_new_place(&mut self) {
+    fn continue_at_new_place(&mut self, from_m: Vec3<Ned>) {
         self.end_contact();
         self.scoring.rewinds += 1;
         self.scoring.is_frozen = false;
-        let (rigid, now) = (self.state.rigid, self.now);
+        let (pose, now) = (self.pose(), self.now);
         if let Controller::Builtin(own) = &mut self.controller {
-            own.autopilot.continue_from(rigid.position_m, rigid.velocity_m_s, rigid.attitude, now);
+            own.autopilot.continue_at(from_m, &pose, now);
         }
         self.practice.freeze = Freeze::Due { at: now + RUN_ON_TIME, then_until_stick: true };
     }

@@ -262,10 +262,11 @@ mod tests {
         /// Puts a flying aircraft at rest at another place.
         fn place(vehicle: &mut Vehicle, position_m: Vec3<Enu>) {
             let sim = &mut vehicle.sim;
+            let from_m = sim.state.rigid.position_m;
             sim.place_at_rest(position_m.ned(), 0.0, sim.model.hover_rotor_rad_s());
-            let (rigid, now) = (sim.state.rigid, sim.now);
+            let (pose, now) = (sim.pose(), sim.now);
             if let Controller::Builtin(own) = &mut sim.controller {
-                own.autopilot.continue_from(rigid.position_m, rigid.velocity_m_s, rigid.attitude, now);
+                own.autopilot.continue_at(from_m, &pose, now);
             }
         }
 
@@ -299,11 +300,12 @@ mod tests {
             place(&mut vehicle, low);
             vehicle.go_to(low).unwrap();
             let lee_tilt_rad = mean_tilt_rad(&mut vehicle);
+            let held_north_m = vehicle.position_m().north();
             vehicle.go_to(high).unwrap();
             let mut drift_m = 0.0_f64;
             while vehicle.position_m().up() < high.up() - 1.0 {
                 vehicle.run(SimTime::from_ms(20));
-                drift_m = drift_m.max(vehicle.position_m().north() - north_m);
+                drift_m = drift_m.max(vehicle.position_m().north() - held_north_m);
             }
             Crossing { lee_tilt_rad, free_tilt_rad: mean_tilt_rad(&mut vehicle), drift_m }
         }

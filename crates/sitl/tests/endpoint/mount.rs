@@ -185,9 +185,11 @@ fn wire_superseded_mount_commands_follow_their_modes() {
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, up, lat, lon, 4.0])), OK);
     let seen = pitch_deg(&mut station);
     assert!((seen - 45.0).abs() < 1.0, "{seen} is not within the tolerance for height error and rounding");
-    // Home is directly below.
+    // Home 100 m north of the pad and 100 m below it.
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_HOME, p(&[0.0, 0.0, 0.0, 0.0, lat, lon, up - 200.0])), OK);
     assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 6.0])), OK);
-    assert!(pitch_deg(&mut station) < -10.0);
+    let seen = pitch_deg(&mut station);
+    assert!((seen + 45.0).abs() < 1.0, "{seen} is not within the tolerance for height error and rounding");
     for mode in [0.0, 5.0, 7.0, 8.0] {
         assert_eq!(station.command(1, control, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, mode])), DENIED, "{mode}");
         assert_eq!(station.command(1, configure, p(&[mode, 1.0, 1.0])), DENIED, "{mode}");

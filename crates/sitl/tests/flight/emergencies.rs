@@ -2,7 +2,7 @@
 
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
-use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, LandedState, LinkLossAction, Severity, Sticks};
+use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, LandedState, LinkLossAction, Pose, Severity, Sticks};
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
@@ -181,13 +181,21 @@ fn flight_recovers_from_an_upset_attitude() {
     }
 }
 
+/// Lets the autopilot continue at rest at the aircraft's present place; it was at `from_m`.
+fn respawn(bench: &mut Bench, from_m: Vec3<Ned>) {
+    let rigid = bench.state.rigid;
+    let pose = Pose { position_m: rigid.position_m, velocity_m_s: Vec3::zero(), attitude: rigid.attitude };
+    bench.autopilot.respawn(from_m, &pose, bench.now);
+}
+
 #[test]
 fn flight_flipped_vehicle_on_the_ground_stops_its_motors() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 13, 3.0);
+    let from_m = bench.position();
     bench.state.rigid.attitude = Rotation::from_euler(math::PI, 0.0, 0.0);
     bench.state.rigid.position_m = Vec3::<Ned>::new(0.0, 0.0, -0.15);
     bench.state.rigid.velocity_m_s = Vec3::zero();
-    bench.autopilot.respawn(bench.position(), Vec3::zero(), bench.state.rigid.attitude, bench.now);
+    respawn(&mut bench, from_m);
     bench.run(12.0, |_| ());
     assert!(!bench.autopilot.status().armed, "{:?} {:?}", bench.autopilot.status(), bench.state.rigid);
 }
@@ -198,10 +206,9 @@ fn flight_respawned_vehicle_hovers() {
         let mut bench = Bench::in_position_mode(&vehicle(name), 14, 5.0);
         bench.ask(AutopilotRequest::Disarm { force: true });
         bench.run(4.0, |_| ());
-        let place = Vec3::<Ned>::new(6.0, -4.0, -7.0);
+        let (from_m, place) = (bench.position(), Vec3::<Ned>::new(6.0, -4.0, -7.0));
         bench.state.place(place, 0.5);
-        let attitude = bench.state.rigid.attitude;
-        bench.autopilot.respawn(place, Vec3::zero(), attitude, bench.now);
+        respawn(&mut bench, from_m);
         let mut stray: f64 = 0.0;
         bench.run(10.0, |b| stray = stray.max((b.position() - place).norm()));
         let status = bench.autopilot.status();

@@ -128,13 +128,15 @@ fn exact_gusts_on_the_lake_travel_with_the_wind() {
     const MOVING: f64 = 0.9;
     const STAYING: f64 = 0.5;
     const SPEED_M_S: f64 = 5.0;
+    /// Twice the usual turbulence, so that the gusts stand out from what stays.
+    const TURBULENCE: f64 = 2.0;
     /// Time in which the gusts travel farther than their largest patches, s.
     const LATER_S: f64 = 25.0;
     let mut studio = overcast_studio();
     // Along the lake, which is 180 m wide.
     let moved_m = (0.0, SPEED_M_S * LATER_S);
     let start = (0.0, -330.0, 100.0);
-    let along = |time: SimTime| VisibleWind::at(&WindSpec { from_deg: 180.0, ..windy(SPEED_M_S).wind }, time);
+    let along = |time: SimTime| VisibleWind::at(&WindSpec { from_deg: 180.0, turbulence: TURBULENCE, ..windy(SPEED_M_S).wind }, time);
     let mut seen = |(east_m, north_m): (f64, f64), time_s: f64| {
         let shot = from_above(&studio, (start.0 + east_m, start.1 + north_m, start.2));
         let time = SimTime::from_s(100.0 + time_s);

@@ -1,14 +1,14 @@
-//! The 23 by 23 error covariance, propagated through the few non-zero blocks of the transition matrix instead of full
+//! The 20 by 20 error covariance, propagated through the few non-zero blocks of the transition matrix instead of full
 //! matrix products.
 //!
 //! Errors are true minus estimated, in this order: position, velocity, attitude (a rotation vector in NED, applied after the
-//! estimated attitude), gyroscope bias, accelerometer bias (both in body axes), GNSS drift, barometer offset, optical-flow scale,
+//! estimated attitude), gyroscope bias, accelerometer bias (both in body axes), offset of the GNSS height, barometer offset,
 //! magnetometer bias (body axes).
 
 use nalgebra::{Matrix3, Vector3};
 
 /// Number of error states.
-pub const STATE_COUNT: usize = 23;
+pub const STATE_COUNT: usize = 20;
 /// Index of the position error.
 pub const P: usize = 0;
 /// Index of the velocity error.
@@ -19,14 +19,12 @@ pub const THETA: usize = 6;
 pub const BG: usize = 9;
 /// Index of the accelerometer bias error.
 pub const BA: usize = 12;
-/// Index of the GNSS drift error.
-pub const DRIFT: usize = 15;
+/// Index of the error of the GNSS height offset.
+pub const GNSS_HEIGHT: usize = 15;
 /// Index of the barometer offset error.
-pub const BARO: usize = 18;
-/// Index of the optical-flow scale error, a fraction of velocity; constant over a session.
-pub const FLOW: usize = 19;
+pub const BARO: usize = 16;
 /// Index of the magnetometer bias error; constant over a session.
-pub const MAG: usize = 20;
+pub const MAG: usize = 17;
 
 /// Spectral densities of the process noise, in SI units per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,10 +37,10 @@ pub struct ProcessNoise {
     pub accel_walk: f64,
     /// Gyroscope bias walk, (rad/s)²/s.
     pub gyro_walk: f64,
-    /// Variance of the GNSS drift, north, east, down, m².
-    pub drift: [f64; 3],
-    /// Time constant of the GNSS drift, s.
-    pub drift_time_s: f64,
+    /// Variance of the GNSS height offset, m².
+    pub gnss_height: f64,
+    /// Time constant of the GNSS height offset, s.
+    pub gnss_height_time_s: f64,
     /// Barometer walk, m²/s.
     pub baro_walk: f64,
 }
@@ -117,17 +115,15 @@ impl Covariance {
         let b = [[r.m11, r.m12, r.m13], [r.m21, r.m22, r.m23], [r.m31, r.m32, r.m33]];
         self.rows(&a, &b, dt_s);
         self.columns(&a, &b, dt_s);
-        let keep = 1.0 - dt_s / noise.drift_time_s;
-        for i in 0..3 {
-            self.scale(DRIFT + i, keep);
-        }
+        let keep = 1.0 - dt_s / noise.gnss_height_time_s;
+        self.scale(GNSS_HEIGHT, keep);
         for i in 0..3 {
             self.m[V + i][V + i] += noise.accel * dt_s + shock_variance;
             self.m[THETA + i][THETA + i] += noise.gyro * dt_s;
             self.m[BG + i][BG + i] += noise.gyro_walk * dt_s;
             self.m[BA + i][BA + i] += noise.accel_walk * dt_s;
-            self.m[DRIFT + i][DRIFT + i] += noise.drift[i] * (1.0 - keep * keep);
         }
+        self.m[GNSS_HEIGHT][GNSS_HEIGHT] += noise.gnss_height * (1.0 - keep * keep);
         self.m[BARO][BARO] += noise.baro_walk * dt_s;
         self.mirror();
     }
@@ -263,8 +259,8 @@ mod tests {
             gyro: 0.2,
             accel_walk: 0.3,
             gyro_walk: 0.4,
-            drift: [0.5, 0.6, 0.7],
-            drift_time_s: 50.0,
+            gnss_height: 0.5,
+            gnss_height_time_s: 50.0,
             baro_walk: 0.8,
         };
         let dt = 0.01;
@@ -274,13 +270,13 @@ mod tests {
         let cross = Matrix3::new(0.0, g.z, -g.y, -g.z, 0.0, g.x, g.y, -g.x, 0.0);
         for i in 0..3 {
             f[(P + i, V + i)] = dt;
-            f[(DRIFT + i, DRIFT + i)] = 1.0 - dt / 50.0;
             for j in 0..3 {
                 f[(V + i, THETA + j)] = cross[(i, j)];
                 f[(V + i, BA + j)] = -dt * r[(i, j)];
                 f[(THETA + i, BG + j)] = -dt * r[(i, j)];
             }
         }
+        f[(GNSS_HEIGHT, GNSS_HEIGHT)] = 1.0 - dt / 50.0;
         let mut c = sample_covariance();
         let mut expected = f * full(&c) * f.transpose();
         let keep: f64 = 1.0 - dt / 50.0;
@@ -289,8 +285,8 @@ mod tests {
             expected[(THETA + i, THETA + i)] += 0.2 * dt;
             expected[(BG + i, BG + i)] += 0.4 * dt;
             expected[(BA + i, BA + i)] += 0.3 * dt;
-            expected[(DRIFT + i, DRIFT + i)] += noise.drift[i] * (1.0 - keep * keep);
         }
+        expected[(GNSS_HEIGHT, GNSS_HEIGHT)] += 0.5 * (1.0 - keep * keep);
         expected[(BARO, BARO)] += 0.8 * dt;
         c.propagate(&r, &g, dt, &noise, 0.001);
         assert!((full(&c) - expected).abs().max() < ROUNDING_TOLERANCE);
@@ -302,10 +298,10 @@ mod tests {
         let before = full(&c);
         let mut h = SMatrix::<f64, 1, STATE_COUNT>::zeros();
         h[(0, P)] = 1.0;
-        h[(0, DRIFT)] = 0.5;
+        h[(0, GNSS_HEIGHT)] = 0.5;
         let s = (h * before * h.transpose())[(0, 0)] + 0.2;
         let k = before * h.transpose() / s;
-        let dx = c.fuse(&[(P, 1.0), (DRIFT, 0.5)], 0.3, 0.2, 5.0).unwrap_or([0.0; STATE_COUNT]);
+        let dx = c.fuse(&[(P, 1.0), (GNSS_HEIGHT, 0.5)], 0.3, 0.2, 5.0).unwrap_or([0.0; STATE_COUNT]);
         assert!((full(&c) - (SquareMatrix::identity() - k * h) * before).abs().max() < ROUNDING_TOLERANCE);
         assert!((0..STATE_COUNT).all(|i| (dx[i] - k[(i, 0)] * 0.3).abs() < ROUNDING_TOLERANCE));
     }

@@ -3,7 +3,7 @@
 
 use super::Estimator;
 use super::checks::REJECTION_TIMEOUT_S;
-use super::covariance::{BA, BARO, BG, DRIFT, FLOW, MAG, P, StateCorrection, THETA, V};
+use super::covariance::{BA, BARO, BG, GNSS_HEIGHT, MAG, P, StateCorrection, THETA, V};
 use crate::sensors::{FlowReading, GnssReading};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::math;
@@ -11,57 +11,59 @@ use spandrel_model::time::SimTime;
 
 /// Innovation gate, standard deviations.
 pub(super) const INNOVATION_GATE: f64 = 5.0;
-/// Weight of the reported GNSS variance in excess of the open-sky error. The excess is mostly multipath, which lasts
-/// for seconds. The weight is about twice its time constant times the fix rate, halved because part of the excess is
+/// Weight of the variance that the receiver states in excess of the open-sky error. The excess is mostly multipath, which lasts
+/// for seconds. The weight is about twice its time constant (estimate: 8 s) times the fix rate, halved because part of the excess is
 /// white noise.
 const MULTIPATH_WEIGHT: f64 = 40.0;
 /// Time after its last fusion for which optical flow counts as an independent velocity source, s.
 const FLOW_VALIDITY_TIME_S: f64 = 1.0;
 /// Time for which a fix counts as current, s (estimate: five fixes at the usual rate).
 const FIX_VALIDITY_TIME_S: f64 = 1.0;
-/// Deviation beyond which the barometer contradicts the GNSS drift, standard deviations.
+/// Offset of the GNSS height beyond which the barometer contradicts it, standard deviations.
 const BARO_CONFLICT_SIGMAS: f64 = 4.0;
 /// Deviation within which GNSS and filter agree on height, standard deviations.
 const AGREEMENT_SIGMAS: f64 = 1.5;
 /// Standard deviation of the barometer offset after a reset, m (estimate).
 const RESET_BARO_OFFSET_SIGMA_M: f64 = 0.3;
 
+/// Returns the variance of a fix due to multipath, for an accuracy that the receiver states and its accuracy under an open sky.
+fn multipath_variance_m2(stated_m: f64, open_m: f64) -> f64 {
+    MULTIPATH_WEIGHT * (stated_m * stated_m - open_m * open_m).max(0.0)
+}
+
 /// Non-zero elements of the Jacobian of one measurement.
 type MeasurementJacobian<'a> = &'a [(usize, f64)];
 
 impl Estimator {
     pub(super) fn fuse_gnss(&mut self, fix: &GnssReading, now: SimTime) {
-        let n = self.noise;
         if !self.global_position_known {
             self.global_position_known = true;
             self.position_m = Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down());
             self.covariance.reset(P, 2, 1e6);
         }
-        let white = |claimed: f64, drift: f64, least: f64| {
-            let excess = claimed * claimed - drift * drift - least * least;
-            least * least + MULTIPATH_WEIGHT * excess.max(0.0)
-        };
-        let rh = white(fix.eph_m, n.gnss_drift_m[0], n.gnss_white_m[0]);
-        let rv = white(fix.epv_m, n.gnss_drift_m[1], n.gnss_white_m[1]);
-        self.fuse_fix(fix, rh, now);
-        self.fuse_fix_height(fix, rv, now);
-        let stretch = (rh.sqrt() / n.gnss_white_m[0].max(1e-6)).max(1.0);
-        self.fuse_fix_velocity(fix, (n.gnss_velocity_noise_m_s * stretch) * (n.gnss_velocity_noise_m_s * stretch), now);
+        let [horizontal_m, vertical_m] = self.noise.gnss_m;
+        let open_m2 = horizontal_m * horizontal_m;
+        let horizontal_m2 = open_m2 + multipath_variance_m2(fix.eph_m, horizontal_m);
+        self.fuse_fix(fix, horizontal_m2, now);
+        // The slow part of the height's error is a state.
+        let white_m = self.noise.gnss_height_white_m;
+        self.fuse_fix_height(fix, white_m * white_m + multipath_variance_m2(fix.epv_m, vertical_m), now);
+        let speed_m_s = self.noise.gnss_velocity_m_s;
+        self.fuse_fix_velocity(fix, speed_m_s * speed_m_s * horizontal_m2 / open_m2.max(1e-12), now);
     }
 
     /// Offset of a fix from the filter, m.
     fn gnss_offset_m(&self, fix: &GnssReading) -> Vec3<Ned> {
-        fix.position_m - self.position_m - self.drift_m
+        fix.position_m - self.position_m - Vec3::new(0.0, 0.0, self.gnss_height_offset_m)
     }
 
     fn fuse_fix(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
         let off = self.gnss_offset_m(fix).array();
-        let slopes = [[(P, 1.0), (DRIFT, 1.0)], [(P + 1, 1.0), (DRIFT + 1, 1.0)]];
-        let fits = (0..2).all(|i| self.accepts(&slopes[i], off[i], variance));
+        let fits = (0..2).all(|i| self.accepts(&[(P + i, 1.0)], off[i], variance));
         if self.checks.gnss.should_fuse(fits, now) {
-            self.fuse(&slopes[0], off[0], variance);
+            self.fuse(&[(P, 1.0)], off[0], variance);
             let off = self.gnss_offset_m(fix);
-            self.fuse(&slopes[1], off.east(), variance);
+            self.fuse(&[(P + 1, 1.0)], off.east(), variance);
         }
         if fits {
             self.checks.gnss_offset_monitor.clear();
@@ -89,7 +91,7 @@ impl Estimator {
 
     fn fuse_fix_height(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
         let slow = self.slow_height_error_m(fix, now);
-        let slopes = [(P + 2, 1.0), (DRIFT + 2, 1.0)];
+        let slopes = [(P + 2, 1.0), (GNSS_HEIGHT, 1.0)];
         let off = self.gnss_offset_m(fix).down();
         let fits = self.accepts(&slopes, off, variance);
         if self.checks.gnss_height.should_fuse(fits, now) && !self.checks.gnss.dropped() {
@@ -101,22 +103,22 @@ impl Estimator {
             self.ground.record_agreement(self.position_m.down(), fix.position_m.down());
         }
         // With another height reference, the GNSS height may have a permanent offset.
-        let drifted = self.gnss_is_reference() && self.drift_m.down().abs() > BARO_CONFLICT_SIGMAS * slow;
+        let drifted = self.gnss_is_reference() && self.gnss_height_offset_m.abs() > BARO_CONFLICT_SIGMAS * slow;
         let contradicted = self.checks.gnss_height.dropped() || drifted;
         if contradicted && !self.checks.gnss.dropped() {
             self.resolve_height_conflict(fix, now);
         }
     }
 
-    /// Slowly varying error of the GNSS height, m (1 sigma): drift and recently reported multipath error.
+    /// Slowly varying error of the GNSS height, m (1 sigma): its usual offset and recently reported multipath error.
     fn slow_height_error_m(&mut self, fix: &GnssReading, now: SimTime) -> f64 {
-        let (drift, white) = (self.noise.gnss_drift_m[1], self.noise.gnss_white_m[1]);
+        let usual = self.noise.gnss_m[1];
         let since_s = self.latest_fix.map_or(0.0, |(_, at)| (now - at).s());
         self.latest_fix = Some((*fix, now));
-        let keep = (1.0 - since_s / self.process.drift_time_s).max(0.0);
-        let claimed = (fix.epv_m * fix.epv_m - drift * drift - white * white).max(0.0);
+        let keep = (1.0 - since_s / self.process.gnss_height_time_s).max(0.0);
+        let claimed = (fix.epv_m * fix.epv_m - usual * usual).max(0.0);
         self.multipath_variance_m2 = claimed.max(self.multipath_variance_m2 * keep);
-        (drift * drift + self.multipath_variance_m2).sqrt()
+        (usual * usual + self.multipath_variance_m2).sqrt()
     }
 
     /// Resolves a height conflict between GNSS and barometer with the range finder, or in favor of GNSS if the range finder
@@ -129,26 +131,26 @@ impl Estimator {
         let sides = || self.ground.agrees_with_filter(self.position_m.down(), fix.position_m.down());
         if !alone && (!self.gnss_is_reference() || sides()) {
             self.checks.gnss_height.reject();
-            self.reset_height_drift();
+            self.reset_gnss_height_offset();
             return;
         }
         self.checks.baro.reject();
         self.set_height(fix, now);
     }
 
-    pub(super) fn reset_height_drift(&mut self) {
-        self.drift_m = Vec3::new(self.drift_m.north(), self.drift_m.east(), 0.0);
-        self.covariance.reset(DRIFT + 2, 1, self.process.drift[2]);
+    pub(super) fn reset_gnss_height_offset(&mut self) {
+        self.gnss_height_offset_m = 0.0;
+        self.covariance.reset(GNSS_HEIGHT, 1, self.process.gnss_height);
     }
 
     /// Resets height and climb rate to the GNSS values.
     fn set_height(&mut self, fix: &GnssReading, now: SimTime) {
-        self.reset_height_drift();
+        self.reset_gnss_height_offset();
         let (p, v) = (self.position_m, self.velocity_m_s);
         self.position_m = Vec3::new(p.north(), p.east(), fix.position_m.down());
         self.velocity_m_s = Vec3::new(v.north(), v.east(), fix.velocity_m_s.down());
         self.covariance.reset(P + 2, 1, fix.epv_m * fix.epv_m);
-        let speed = self.noise.gnss_velocity_noise_m_s;
+        let speed = self.noise.gnss_velocity_m_s;
         self.covariance.reset(V + 2, 1, 4.0 * speed * speed);
         self.checks.gnss_height.clear();
         self.last_fused.height = now;
@@ -253,22 +255,19 @@ impl Estimator {
         let (c, s) = (nose.north() / level, nose.east() / level);
         let v = self.velocity_m_s;
         let (forward, right) = (c * v.north() + s * v.east(), c * v.east() - s * v.north());
-        let k = self.flow_scale;
         // With the nose pitched up or down, the tilt error affects the heading too.
         let steep = -nose.down() / level;
         let turns = |share: f64| [(THETA, share * steep * c), (THETA + 1, share * steep * s), (THETA + 2, share)];
-        let variance = self.noise.flow_m_s * self.noise.flow_m_s / reading.quality.clamp(0.1, 1.0);
-        let [n, e, d] = turns(k * right);
-        let slopes = [(V, k * c), (V + 1, k * s), n, e, d, (FLOW, forward)];
-        let a = self.fuse(&slopes, reading.forward_m_s - k * forward, variance);
-        let [n, e, d] = turns(-k * forward);
-        let slopes = [(V, -k * s), (V + 1, k * c), n, e, d, (FLOW, right)];
-        let b = self.fuse(&slopes, reading.right_m_s - k * right, variance);
+        let variance = self.noise.flow_variance(v.horizontal_norm()) / reading.quality.clamp(0.1, 1.0);
+        let [n, e, d] = turns(right);
+        let a = self.fuse(&[(V, c), (V + 1, s), n, e, d], reading.forward_m_s - forward, variance);
+        let [n, e, d] = turns(-forward);
+        let b = self.fuse(&[(V, -s), (V + 1, c), n, e, d], reading.right_m_s - right, variance);
         if a && b {
             self.last_fused.velocity = now;
             self.last_fused.flow = now;
         } else if (now - self.last_fused.velocity).s() > REJECTION_TIMEOUT_S {
-            let (f, r) = (reading.forward_m_s / k, reading.right_m_s / k);
+            let (f, r) = (reading.forward_m_s, reading.right_m_s);
             self.velocity_m_s = Vec3::new(c * f - s * r, s * f + c * r, v.down());
             self.covariance.reset(V, 2, 4.0 * variance);
             self.last_fused.velocity = now;
@@ -295,9 +294,8 @@ impl Estimator {
         self.turn(Vec3::new(d[THETA], d[THETA + 1], d[THETA + 2]));
         self.gyro_bias += Vec3::new(d[BG], d[BG + 1], d[BG + 2]);
         self.accel_bias += Vec3::new(d[BA], d[BA + 1], d[BA + 2]);
-        self.drift_m += Vec3::new(d[DRIFT], d[DRIFT + 1], d[DRIFT + 2]);
+        self.gnss_height_offset_m += d[GNSS_HEIGHT];
         self.baro_offset_m += d[BARO];
-        self.flow_scale += d[FLOW];
         self.mag_bias += Vec3::new(d[MAG], d[MAG + 1], d[MAG + 2]);
     }
 

@@ -3,11 +3,11 @@
 //! height converges to it.
 
 use super::Estimator;
+use super::assumptions::BARO_START_OFFSET_M;
 use super::checks::REJECTION_TIMEOUT_S;
 use super::covariance::{BARO, P};
 use super::fuse::INNOVATION_GATE;
 use super::height_reference::HeightReference;
-use crate::sensors::baro;
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
 
@@ -45,34 +45,34 @@ impl Estimator {
         }
     }
 
-    /// Makes GNSS the reference: adds its estimated drift to the height and to the barometer offset.
+    /// Makes GNSS the reference: adds its estimated offset to the height and to the barometer offset.
     fn move_height_to_gnss(&mut self) {
-        let step_m = self.drift_m.down();
+        let step_m = self.gnss_height_offset_m;
         self.position_m += Vec3::new(0.0, 0.0, step_m);
         self.baro_offset_m += step_m;
-        self.reset_height_drift();
+        self.reset_gnss_height_offset();
         self.doubt_height();
     }
 
     /// Lets the height follow GNSS slowly after the configured reference was lost: from now on, it is no more certain than GNSS.
     fn doubt_height(&mut self) {
-        let usual = self.noise.gnss_drift_m[1];
+        let usual = self.noise.gnss_m[1];
         self.covariance.reset(P + 2, 1, usual * usual);
     }
 
     /// Sets the height error model of each sensor for the given reference. Does not change the height.
     fn set_height_weights(&mut self, reference: HeightReference) {
         let loose = NON_REFERENCE_SIGMA_M * NON_REFERENCE_SIGMA_M;
-        let usual = self.noise.gnss_drift_m[1] * self.noise.gnss_drift_m[1];
-        let loose_walk = loose / self.process.drift_time_s;
-        let start = baro::START_OFFSET_M * baro::START_OFFSET_M;
-        let (drift, walk, offset) = match reference {
+        let usual = self.noise.gnss_m[1] * self.noise.gnss_m[1];
+        let loose_walk = loose / self.process.gnss_height_time_s;
+        let start = BARO_START_OFFSET_M * BARO_START_OFFSET_M;
+        let (gnss_height, walk, offset) = match reference {
             HeightReference::Gnss => (usual, self.noise.baro_walk, start),
             // The offset stays at its current value.
             HeightReference::Barometer => (loose, 0.0, 0.0),
             HeightReference::RangeFinder => (loose, loose_walk, start),
         };
-        (self.process.drift[2], self.process.baro_walk) = (drift, walk);
+        (self.process.gnss_height, self.process.baro_walk) = (gnss_height, walk);
         self.covariance.reset(BARO, 1, offset);
     }
 

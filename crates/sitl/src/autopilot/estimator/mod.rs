@@ -1,11 +1,12 @@
 //! Error-state Kalman filter. The state runs at the inertial sample rate, the covariance at 100 Hz. The states are
-//! position, velocity, attitude, inertial sensor biases, GNSS drift, barometer offset, optical-flow scale and
+//! position, velocity, attitude, inertial sensor biases, offsets of the GNSS height and the barometer, and
 //! magnetometer bias. It fuses GNSS, barometer, magnetometer and optical flow.
 //!
 //! The range finder is not fused by default, because the surface below may be a deck, a truck or water. It decides
 //! which height to use when GNSS and barometer contradict each other.
 
 pub mod align;
+mod assumptions;
 mod checks;
 pub mod covariance;
 pub mod estimate;
@@ -15,10 +16,11 @@ mod height;
 pub mod height_reference;
 mod recent_motion;
 
-use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer, vibration};
+use crate::sensors::{GnssReading, ImuReading, Readings, magnetometer};
 use align::{Alignment, AlignmentResult, GyroSpec};
+use assumptions::{BARO_START_OFFSET_M, MeasurementNoise, process_noise};
 use checks::InnovationChecks;
-use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATE_COUNT, THETA, V};
+use covariance::{BA, BARO, BG, Covariance, GNSS_HEIGHT, MAG, P, ProcessNoise, STATE_COUNT, THETA, V};
 use estimate::Estimate;
 use ground::GroundEstimate;
 use height_reference::{HeightReference, HeightReferenceState};
@@ -40,6 +42,9 @@ const REVALIDATION_FRACTION: f64 = 0.5;
 /// Specific force above which the sampling blurs the direction of a shock, m/s², and the fraction of it treated as uncertain.
 const SHOCK_SPECIFIC_FORCE_M_S2: f64 = 40.0;
 const SHOCK_UNCERTAINTY_FRACTION: f64 = 0.1;
+/// Largest error of the position that a filter keeps when the aircraft is put somewhere else, in standard deviations of the receiver's height. After a
+/// larger one, the filter was lost.
+const MAX_KEPT_ERROR_SIGMAS: f64 = 4.0;
 /// Time over which fixes are averaged before the local frame's origin is set, s (estimate; PX4 requires 10 s of good
 /// fixes, EKF2_REQ_GPS_H).
 const LOCAL_ORIGIN_AVERAGING_TIME_S: f64 = 1.5;
@@ -48,23 +53,6 @@ const LOCAL_ORIGIN_AVERAGING_TIME_S: f64 = 1.5;
 /// nor optical flow, and this estimator's drift stays within its limits for about this long
 /// (`crates/sitl/tests/flight`).
 pub const DEAD_RECKONING_LIMIT_S: f64 = 60.0;
-
-/// Measurement noise from the sensors' data sheets.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct MeasurementNoise {
-    gnss_velocity_noise_m_s: f64,
-    gnss_white_m: [f64; 2],
-    gnss_drift_m: [f64; 2],
-    baro_m: f64,
-    mag_gauss: f64,
-    mag_bias_gauss: f64,
-    flow_m_s: f64,
-    accel_bias_m_s2: f64,
-    gyro_bias_rad_s: f64,
-    accel_sample: f64,
-    baro_walk: f64,
-    range_m: f64,
-}
 
 /// Time at which each source was last fused.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,9 +98,9 @@ pub struct Estimator {
     attitude: Rotation<Frd, Ned>,
     gyro_bias: Vec3<Frd>,
     accel_bias: Vec3<Frd>,
-    drift_m: Vec3<Ned>,
+    /// Offset of the GNSS height, m down.
+    gnss_height_offset_m: f64,
     baro_offset_m: f64,
-    flow_scale: f64,
     mag_bias: Vec3<Frd>,
     covariance: Covariance,
     unpropagated_velocity_m_s: Vec3<Ned>,
@@ -142,54 +130,16 @@ pub struct Estimator {
     usable: bool,
 }
 
-/// Returns the process noise for an aircraft's sensors. `drift` is the standard deviation of the GNSS drift, horizontal and vertical, m.
-fn process_noise(sensors: &vehicle::SensorSpec, drift: [f64; 2]) -> ProcessNoise {
-    let sq = |x: f64| x * x;
-    let shaking = vibration::broadband_variances(sensors);
-    ProcessNoise {
-        // A variance per sample is the density times the rate.
-        accel: sq(sensors.accel_noise_density) + shaking.0 / sensors.imu_rate_hz,
-        gyro: sq(sensors.gyro_noise_density) + shaking.1 / sensors.imu_rate_hz,
-        accel_walk: sq(sensors.accel_bias_m_s2 * imu::BIAS_WALK_FRACTION),
-        gyro_walk: sq(sensors.gyro_bias_rad_s * imu::BIAS_WALK_FRACTION),
-        drift: [sq(drift[0]), sq(drift[0]), sq(drift[1])],
-        drift_time_s: gnss::DRIFT_TIME_CONSTANT_S,
-        baro_walk: sq(sensors.baro_drift_m_sqrt_s),
-    }
-}
-
 impl Estimator {
     /// Creates an unaligned filter. `origin` is the origin of the local frame, used for the magnetic model.
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, origin: Geo) -> Self {
-        let sq = |x: f64| x * x;
-        let drift =
-            [sensors.gnss_horizontal_noise_m * gnss::DRIFT_FRACTION, sensors.gnss_vertical_noise_m * gnss::DRIFT_FRACTION];
-        let rate = sensors.imu_rate_hz.sqrt();
+        let noise = MeasurementNoise::of(sensors);
         Self {
-            process: process_noise(sensors, drift),
-            noise: MeasurementNoise {
-                gnss_velocity_noise_m_s: sensors.gnss_velocity_noise_m_s,
-                gnss_white_m: [
-                    sensors.gnss_horizontal_noise_m * gnss::WHITE_NOISE_FRACTION,
-                    sensors.gnss_vertical_noise_m * gnss::WHITE_NOISE_FRACTION,
-                ],
-                gnss_drift_m: drift,
-                baro_m: sensors.baro_noise_m,
-                mag_gauss: sensors.mag_noise_gauss,
-                mag_bias_gauss: sensors.mag_bias_gauss,
-                flow_m_s: sensors.flow_velocity_m_s,
-                accel_bias_m_s2: sensors.accel_bias_m_s2,
-                gyro_bias_rad_s: sensors.gyro_bias_rad_s,
-                accel_sample: sensors.accel_noise_density * rate,
-                baro_walk: sq(sensors.baro_drift_m_sqrt_s),
-                range_m: sensors.range_noise_m,
-            },
+            process: process_noise(&noise),
+            noise,
             field_gauss: magnetometer::earth_field_gauss(origin),
-            alignment: Alignment::new(GyroSpec {
-                bias_rad_s: sensors.gyro_bias_rad_s,
-                white_noise_rad_s: sensors.gyro_noise_density * rate,
-            }),
+            alignment: Alignment::new(GyroSpec { bias_rad_s: noise.gyro_bias_rad_s, white_noise_rad_s: noise.gyro_sample_rad_s }),
             aligned: false,
             global_position_known: false,
             local_origin_m: Vec3::zero(),
@@ -200,9 +150,8 @@ impl Estimator {
             attitude: Rotation::identity(),
             gyro_bias: Vec3::zero(),
             accel_bias: Vec3::zero(),
-            drift_m: Vec3::zero(),
+            gnss_height_offset_m: 0.0,
             baro_offset_m: 0.0,
-            flow_scale: 1.0,
             mag_bias: Vec3::zero(),
             covariance: Covariance::diagonal(&[0.0; STATE_COUNT]),
             unpropagated_velocity_m_s: Vec3::zero(),
@@ -305,11 +254,10 @@ impl Estimator {
         self.attitude = aligned.attitude;
         self.gyro_bias = aligned.gyro_bias_rad_s;
         let bias = sq(n.accel_bias_m_s2);
-        let tilt = (bias + sq(n.accel_sample) / aligned.samples) / sq(math::GRAVITY_M_S2);
+        let tilt = (bias + sq(n.accel_sample_m_s2) / aligned.samples) / sq(math::GRAVITY_M_S2);
         let gyro = aligned.gyro_variance;
         let (far, yaw, at_rest, bh) = (1e6, 1.0, sq(0.05), bias);
-        let height = sq(baro::START_OFFSET_M);
-        let d = self.process.drift;
+        let height = sq(BARO_START_OFFSET_M);
         self.covariance = Covariance::diagonal(&[
             far,
             far,
@@ -326,11 +274,8 @@ impl Estimator {
             bh,
             bh,
             bh,
-            d[0],
-            d[1],
-            d[2],
+            self.process.gnss_height,
             height,
-            sq(flow::SCALE_ERROR),
             sq(n.mag_bias_gauss),
             sq(n.mag_bias_gauss),
             sq(n.mag_bias_gauss),
@@ -387,8 +332,7 @@ impl Estimator {
             &self.process,
             self.shock_variance,
         );
-        let keep = 1.0 - self.unpropagated_time_s / self.process.drift_time_s;
-        self.drift_m = self.drift_m * keep;
+        self.gnss_height_offset_m *= 1.0 - self.unpropagated_time_s / self.process.gnss_height_time_s;
         self.unpropagated_velocity_m_s = Vec3::zero();
         self.unpropagated_time_s = 0.0;
         self.shock_variance = 0.0;
@@ -450,34 +394,36 @@ impl Estimator {
         self.position_resets
     }
 
-    /// Resets the filter to a known pose, for example after a respawn. Keeps the biases.
-    pub fn reset_to_pose(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
-        self.position_m = position_m;
-        self.velocity_m_s = velocity_m_s;
-        self.attitude = attitude;
+    /// Resets the filter to a known pose, for example after a respawn at `from_m`. Keeps the biases and the error of the position: most of it is the
+    /// receiver's, to which the position would return within seconds.
+    pub fn reset_to_pose(&mut self, from_m: Vec3<Ned>, pose: &Pose, now: SimTime) {
+        let error_m = self.position_m - from_m;
+        let is_usual = self.global_position_known && error_m.norm() < MAX_KEPT_ERROR_SIGMAS * self.noise.gnss_m[1];
+        self.position_m = pose.position_m + if is_usual { error_m } else { Vec3::zero() };
+        self.velocity_m_s = pose.velocity_m_s;
+        self.attitude = pose.attitude;
         self.unpropagated_velocity_m_s = Vec3::zero();
         self.unpropagated_time_s = 0.0;
         self.shock_variance = 0.0;
         if !self.aligned {
             let n = self.noise;
             let sq = |x: f64| x * x;
-            let (g, a, d) = (sq(n.gyro_bias_rad_s), sq(n.accel_bias_m_s2), self.process.drift);
+            let (g, a) = (sq(n.gyro_bias_rad_s), sq(n.accel_bias_m_s2));
             let mut variances = [0.0; STATE_COUNT];
             for i in 0..3 {
                 variances[BG + i] = g;
                 variances[BA + i] = a;
-                variances[DRIFT + i] = d[i];
                 variances[MAG + i] = sq(n.mag_bias_gauss);
             }
-            variances[BARO] = sq(baro::START_OFFSET_M);
-            variances[FLOW] = sq(flow::SCALE_ERROR);
+            variances[GNSS_HEIGHT] = self.process.gnss_height;
+            variances[BARO] = sq(BARO_START_OFFSET_M);
             self.covariance = Covariance::diagonal(&variances);
         }
         self.covariance.reset(P, 3, 0.25);
         self.covariance.reset(V, 3, 0.04);
         self.covariance.reset(THETA, 3, 0.001);
         if !self.local_origin_set {
-            self.local_origin_m = position_m;
+            self.local_origin_m = self.position_m;
             self.local_origin_set = true;
         }
         self.aligned = true;
@@ -547,6 +493,17 @@ impl Estimator {
         ];
         std::array::from_fn(|i| parts[i / 3][i % 3])
     }
+}
+
+/// Pose and velocity of the aircraft.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Position, m.
+    pub position_m: Vec3<Ned>,
+    /// Velocity, m/s.
+    pub velocity_m_s: Vec3<Ned>,
+    /// Attitude.
+    pub attitude: Rotation<Frd, Ned>,
 }
 
 /// The known true state, for comparison in tests.
