@@ -248,9 +248,9 @@ def test_exact_records_and_flights_are_the_same_people(tmp_path, printed, module
     loader.exec_module(program)
     for number, session in enumerate(modules["records"].sessions_of(RECORDS), 1):
         for person, record in enumerate(session):
-            assert (record["seed"], record["form"]) == (program.seed_of(16, person, number), program.FORMS[number - 1])
+            assert (record["seed"], record["form"]) == (program.seed_of(28, person, number), program.FORMS[number - 1])
             name = f"{person + 1:02}-{number}"
-            (tmp_path / f"pilot-{name}.toml").write_text(program.pilot_text(16, person, number), encoding="utf-8")
+            (tmp_path / f"pilot-{name}.toml").write_text(program.pilot_text(28, person, number), encoding="utf-8")
             (tmp_path / f"row-{name}.json").write_text(json.dumps({"result": modules["records"].row(record)}), encoding="utf-8")
     done = run(tmp_path)
     assert done.returncode == 0, done.stderr
