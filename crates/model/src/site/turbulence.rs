@@ -163,6 +163,9 @@ mod tests {
         assert!((d.sigma_vertical_m_s / mean_m_s - 0.048).abs() < TOLERANCE);
         assert_eq!(Dryden::near_shore(10.0, 5.0, 0.0), Dryden::over_water(10.0, 5.0));
         let (shore, land) = (Dryden::near_shore(10.0, 5.0, 1.0), Dryden::over_land(10.0, 5.0));
-        assert!((shore.sigma_along_m_s - land.sigma_along_m_s).abs() < 1e-12 && (shore.sigma_across_m_s - land.sigma_across_m_s).abs() < 1e-12);
+        assert!(
+            (shore.sigma_along_m_s - land.sigma_along_m_s).abs() < 1e-12
+                && (shore.sigma_across_m_s - land.sigma_across_m_s).abs() < 1e-12
+        );
     }
 }

@@ -136,7 +136,8 @@ fn exact_gusts_on_the_lake_travel_with_the_wind() {
     // Along the lake, which is 180 m wide.
     let moved_m = (0.0, SPEED_M_S * LATER_S);
     let start = (0.0, -330.0, 100.0);
-    let along = |time: SimTime| VisibleWind::at(&WindSpec { from_deg: 180.0, turbulence: TURBULENCE, ..windy(SPEED_M_S).wind }, time);
+    let along =
+        |time: SimTime| VisibleWind::at(&WindSpec { from_deg: 180.0, turbulence: TURBULENCE, ..windy(SPEED_M_S).wind }, time);
     let mut seen = |(east_m, north_m): (f64, f64), time_s: f64| {
         let shot = from_above(&studio, (start.0 + east_m, start.1 + north_m, start.2));
         let time = SimTime::from_s(100.0 + time_s);
