@@ -24,7 +24,7 @@ use weaknesses::WEAKNESSES;
 /// and takes a third of the time.
 const SEED: u64 = 301;
 /// First seed of the faults by another author: other sites than those of the planted weaknesses.
-const UNSEEN_SEED: u64 = 401;
+const UNSEEN_SEED: u64 = 402;
 /// First seed of the third set of faults.
 const FURTHER_SEED: u64 = 501;
 /// First seed of the fourth set of faults.
