@@ -10,6 +10,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::ElementQuantity;
 use spandrel_model::scenario::drones::POINTS_KEY;
 use spandrel_model::scenario::{self, BatteryModel, Bridge, PlacedDefect, Scenario, SiblingLoader, Task, places};
+use spandrel_model::site::drone_path;
 use spandrel_model::site::drones::SiteDrone;
 use spandrel_model::site::geometry::PAD;
 use spandrel_model::site::hand_placed::Misplacement;
@@ -353,11 +354,8 @@ fn rope_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, op
             let close = site.ropes().distances_over_time_m(at_m).filter(|(_, distance_m)| *distance_m < needed_m);
             close.map(|(rope, distance_m)| (rope, distance_m, at_m)).collect::<Vec<_>>()
         };
-        let sampled = task.segments().flat_map(|(from, to)| {
-            let count = ((to - from).norm() / ROPE_SEARCH_STEP_M).ceil().max(1.0) as u32;
-            (0..=count).map(move |k| from.lerp(to, f64::from(k) / f64::from(count)))
-        });
-        let Some((k, distance_m, at_m)) = sampled.flat_map(near).min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+        let points = drone_path::sampled(task.segments(), ROPE_SEARCH_STEP_M);
+        let Some((k, distance_m, at_m)) = points.flat_map(near).min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
         let [east, north, up] = at_m.array();
         let name = site.ropes().all().get(k).map_or("", SiteRope::name);
         problems.push(Problem {

@@ -244,10 +244,8 @@ fn new_task(values: &ScenarioValues) -> Entries {
 }
 
 fn new_bridge(values: &ScenarioValues) -> Entries {
-    let count = values.count("bridges");
-    let names: Vec<&str> = (0..count).filter_map(|k| values.get(&format!("bridges[{k}].name"))).collect();
-    let free = (count + 1..).map(|k| format!("bridge-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default();
-    let last = count.checked_sub(1).and_then(|k| values.get(&format!("bridges[{k}].centre_m")));
+    let free = free_name(values, "bridges", "bridge");
+    let last = values.count("bridges").checked_sub(1).and_then(|k| values.get(&format!("bridges[{k}].centre_m")));
     let beside_last = position(last).map(|[east, north, up]| [east, north + NEW_BRIDGE_DISTANCE_M, up]);
     let [east, north, up] = beside_last.unwrap_or([0.0, 0.0, 34.0]);
     vec![
@@ -258,10 +256,16 @@ fn new_bridge(values: &ScenarioValues) -> Entries {
     ]
 }
 
+/// Returns a name such as `drone-2` that no table at a location has.
+fn free_name(values: &ScenarioValues, location: &str, kind: &str) -> String {
+    let count = values.count(location);
+    let names: Vec<&str> = (0..count).filter_map(|k| values.get(&format!("{location}[{k}].name"))).collect();
+    (count + 1..).map(|k| format!("{kind}-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default()
+}
+
 /// Returns a drone that hovers high above the landing pad, where no bridge is in its way.
 fn new_drone(values: &ScenarioValues) -> Entries {
-    let names: Vec<&str> = (0..values.count("drones")).filter_map(|k| values.get(&format!("drones[{k}].name"))).collect();
-    let free = (names.len() + 1..).map(|k| format!("drone-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default();
+    let free = free_name(values, "drones", "drone");
     let [east, north, up] = position(values.get("ground_team.pad_m")).unwrap_or([0.0; 3]);
     let point = |east: f64| -> Value { [east, north, up + NEW_DRONE_HEIGHT_M].into_iter().collect::<Array>().into() };
     vec![
@@ -273,8 +277,7 @@ fn new_drone(values: &ScenarioValues) -> Entries {
 
 /// Returns a rope that hangs high above the landing pad, where no bridge is in its way.
 fn new_rope(values: &ScenarioValues) -> Entries {
-    let names: Vec<&str> = (0..values.count("ropes")).filter_map(|k| values.get(&format!("ropes[{k}].name"))).collect();
-    let free = (names.len() + 1..).map(|k| format!("rope-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default();
+    let free = free_name(values, "ropes", "rope");
     let [east, north, up] = position(values.get("ground_team.pad_m")).unwrap_or([0.0; 3]);
     let point = |east: f64| -> Value { [east, north, up + NEW_ROPE_HEIGHT_M].into_iter().collect::<Array>().into() };
     vec![

@@ -97,10 +97,7 @@ impl DronePath {
 
     /// Returns points along the path that are at most `step_m` apart.
     pub fn sampled(&self, step_m: f64) -> impl Iterator<Item = Vec3<Enu>> + '_ {
-        self.segments().flat_map(move |(from, to)| {
-            let count = ((to - from).norm() / step_m).ceil().max(1.0) as u32;
-            (0..=count).map(move |k| from.lerp(to, f64::from(k) / f64::from(count)))
-        })
+        sampled(self.segments(), step_m)
     }
 
     /// Returns the straight parts of the path, or one of length 0 at a single point.
@@ -108,6 +105,14 @@ impl DronePath {
         let still = self.legs.is_empty().then_some((self.first_m, self.first_m));
         self.legs.iter().map(|leg| (leg.from_m, leg.to_m)).chain(still)
     }
+}
+
+/// Returns points along a path of straight segments that are at most `step_m` apart.
+pub fn sampled(segments: impl Iterator<Item = (Vec3<Enu>, Vec3<Enu>)>, step_m: f64) -> impl Iterator<Item = Vec3<Enu>> {
+    segments.flat_map(move |(from, to)| {
+        let count = ((to - from).norm() / step_m).ceil().max(1.0) as u32;
+        (0..=count).map(move |k| from.lerp(to, f64::from(k) / f64::from(count)))
+    })
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::math;
 use crate::random::RandomStream;
 use crate::scenario::{RopeSpec, WindEvent, WindModel, WindSpec};
 use crate::time::SimTime;
+use crate::vehicle::SEA_LEVEL_AIR_DENSITY_KG_M3;
 
 /// First object number of ropes, above those of drones.
 pub const FIRST_ROPE_OBJECT: u32 = 2_500_000;
@@ -18,8 +19,6 @@ const SEGMENT_M: f64 = 1.0;
 const MIN_SEGMENTS: usize = 8;
 /// Drag coefficient of a cylinder across the flow (Hoerner, Fluid-Dynamic Drag, 1965, subcritical).
 const DRAG_COEFFICIENT: f64 = 1.2;
-/// Density of the air, kg/m³ (ISO 2533, sea level).
-const AIR_DENSITY_KG_M3: f64 = 1.225;
 /// Amplitude of the swing relative to the drag, for the turbulence 1 (estimate: twice the intensity of the wind over open water, because drag grows
 /// with its square).
 const SWING: f64 = 0.2;
@@ -46,12 +45,15 @@ pub struct SiteRope {
     drag_per_m: f64,
     frequency_rad_s: f64,
     phase_rad: f64,
+    /// Largest angle by which the wind moves a rope with one end away from the vertical, rad.
+    largest_lean_rad: f64,
     segments: usize,
 }
 
 impl SiteRope {
-    fn new(spec: &RopeSpec, stream: &mut RandomStream) -> Option<Self> {
+    fn new(spec: &RopeSpec, wind: &WindSpec, stream: &mut RandomStream) -> Option<Self> {
         let from_m = *spec.points_m.first()?;
+        let drag_per_m = 0.5 * SEA_LEVEL_AIR_DENSITY_KG_M3 * DRAG_COEFFICIENT * spec.diameter_m / spec.mass_kg_m;
         let to_m = spec.points_m.get(1).copied();
         let sag_m = to_m.map(|to_m| sag_m(spec.length_m, (to_m - from_m).norm()).max(MIN_SAG_M));
         let frequency_rad_s = match sag_m {
@@ -64,9 +66,10 @@ impl SiteRope {
             to_m,
             length_m: spec.length_m,
             radius_m: 0.5 * spec.diameter_m,
-            drag_per_m: 0.5 * AIR_DENSITY_KG_M3 * DRAG_COEFFICIENT * spec.diameter_m / spec.mass_kg_m,
+            drag_per_m,
             frequency_rad_s,
             phase_rad: stream.range(0.0, math::TAU),
+            largest_lean_rad: largest_lean_rad(drag_per_m, from_m.up(), wind),
             segments: ((spec.length_m / SEGMENT_M).ceil() as usize).max(MIN_SEGMENTS),
         })
     }
@@ -92,7 +95,6 @@ impl SiteRope {
     }
 
     /// Returns the points of the axis at a time: the ends of equally long segments.
-    #[must_use]
     fn points_m(&self, wind: &WindSpec, at: SimTime) -> Vec<Vec3<Enu>> {
         let pull = self.pull(wind, at);
         match self.to_m {
@@ -112,37 +114,21 @@ impl SiteRope {
         (down + air * (self.drag_per_m * air.norm() * swing)).unit()
     }
 
-    /// Returns the largest angle by which the wind moves the rope away from the vertical, rad.
-    fn largest_lean_rad(&self, wind: &WindSpec) -> f64 {
-        if wind.model == WindModel::Paper {
-            return 0.0;
-        }
-        let (mut mean_m_s, mut gusts_m_s) = (wind.speed_m_s, 0.0);
-        for event in &wind.events {
-            match event {
-                WindEvent::Change { speed_m_s, .. } => mean_m_s = mean_m_s.max(*speed_m_s),
-                WindEvent::Gust { peak_speed_m_s, .. } => gusts_m_s += peak_speed_m_s,
-            }
-        }
-        let speed_m_s = (mean_m_s + gusts_m_s) * wind::profile(self.from_m.up());
-        math::atan(self.drag_per_m * speed_m_s * speed_m_s * (1.0 + SWING * wind.turbulence) / math::GRAVITY_M_S2)
-    }
-
     /// Returns a lower bound of the distance of the surface from a point at any time, m.
-    fn min_distance_over_time_m(&self, wind: &WindSpec, point_m: Vec3<Enu>) -> f64 {
+    fn min_distance_over_time_m(&self, point_m: Vec3<Enu>) -> f64 {
         let axis_m = match self.to_m {
             // Each point of the rope is at most this far from the chord.
             Some(to_m) => {
                 HullShape::between(self.from_m, to_m, sag_m(self.length_m, (to_m - self.from_m).norm())).nearest(point_m).0
             }
-            None => self.distance_from_cone_m(self.largest_lean_rad(wind), point_m),
+            None => self.distance_from_cone_m(point_m),
         };
         axis_m - self.radius_m
     }
 
-    /// Returns a lower bound of the distance of a point from all positions of a straight rope that leans by up to an angle.
-    fn distance_from_cone_m(&self, lean_rad: f64, point_m: Vec3<Enu>) -> f64 {
-        let chord = 2.0 * math::sin(0.5 * lean_rad);
+    /// Returns a lower bound of the distance of a point from all positions of a rope with one end.
+    fn distance_from_cone_m(&self, point_m: Vec3<Enu>) -> f64 {
+        let chord = 2.0 * math::sin(0.5 * self.largest_lean_rad);
         let segment = |k: usize| {
             let [near_m, far_m] = [k, k + 1].map(|end| self.length_m * end as f64 / self.segments as f64);
             let at = |down_m: f64| self.from_m + Vec3::new(0.0, 0.0, -down_m);
@@ -150,6 +136,22 @@ impl SiteRope {
         };
         (0..self.segments).map(segment).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Returns the largest angle by which the scenario's wind moves a rope away from the vertical, rad, for its drag (1/m) and the height of its end (m).
+fn largest_lean_rad(drag_per_m: f64, up_m: f64, wind: &WindSpec) -> f64 {
+    if wind.model == WindModel::Paper {
+        return 0.0;
+    }
+    let (mut mean_m_s, mut gusts_m_s) = (wind.speed_m_s, 0.0);
+    for event in &wind.events {
+        match event {
+            WindEvent::Change { speed_m_s, .. } => mean_m_s = mean_m_s.max(*speed_m_s),
+            WindEvent::Gust { peak_speed_m_s, .. } => gusts_m_s += peak_speed_m_s,
+        }
+    }
+    let speed_m_s = (mean_m_s + gusts_m_s) * wind::profile(up_m);
+    math::atan(drag_per_m * speed_m_s * speed_m_s * (1.0 + SWING * wind.turbulence) / math::GRAVITY_M_S2)
 }
 
 /// Returns how far a rope can be from the straight line between its ends, m.
@@ -211,7 +213,7 @@ impl SiteRopes {
     #[must_use]
     pub fn new(specs: &[RopeSpec], wind: &WindSpec, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "site.ropes");
-        let ropes: Vec<SiteRope> = specs.iter().filter_map(|spec| SiteRope::new(spec, &mut stream)).collect();
+        let ropes: Vec<SiteRope> = specs.iter().filter_map(|spec| SiteRope::new(spec, wind, &mut stream)).collect();
         Self { wind: (!ropes.is_empty()).then(|| wind.clone()), ropes }
     }
 
@@ -275,9 +277,7 @@ impl SiteRopes {
 
     /// Returns the index of each rope and a lower bound for its distance from a point at any time, m.
     pub fn distances_over_time_m(&self, position_m: Vec3<Enu>) -> impl Iterator<Item = (usize, f64)> {
-        let distance =
-            move |wind| self.ropes.iter().enumerate().map(move |(k, rope)| (k, rope.min_distance_over_time_m(wind, position_m)));
-        self.wind.iter().flat_map(distance)
+        self.ropes.iter().enumerate().map(move |(k, rope)| (k, rope.min_distance_over_time_m(position_m)))
     }
 
     /// Returns the first hit of a ray with a rope within `max_m`.

@@ -55,18 +55,23 @@ impl Dryden {
     /// land (estimate).
     #[must_use]
     pub fn over_water(height_m: f64, wind_20ft_m_s: f64) -> Self {
+        Self::over_land(height_m, wind_20ft_m_s).with_intensities_of_water(wind_20ft_m_s)
+    }
+
+    fn with_intensities_of_water(self, wind_20ft_m_s: f64) -> Self {
         let sigma_along_m_s = wind_20ft_m_s / math::ln(REFERENCE_HEIGHT_M / WATER_ROUGHNESS_M);
         Self {
             sigma_along_m_s,
             sigma_across_m_s: WATER_ACROSS * sigma_along_m_s,
             sigma_vertical_m_s: WATER_VERTICAL * sigma_along_m_s,
-            ..Self::over_land(height_m, wind_20ft_m_s)
+            ..self
         }
     }
 
     /// Returns the model near a shore, from open water (share of land 0) to land (1).
     pub(super) fn near_shore(height_m: f64, wind_20ft_m_s: f64, share_of_land: f64) -> Self {
-        let (land, water) = (Self::over_land(height_m, wind_20ft_m_s), Self::over_water(height_m, wind_20ft_m_s));
+        let land = Self::over_land(height_m, wind_20ft_m_s);
+        let water = land.with_intensities_of_water(wind_20ft_m_s);
         Self {
             sigma_along_m_s: math::lerp(water.sigma_along_m_s, land.sigma_along_m_s, share_of_land),
             sigma_across_m_s: math::lerp(water.sigma_across_m_s, land.sigma_across_m_s, share_of_land),

@@ -8,7 +8,7 @@ use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
 /// Offset at power-on, after zeroing at the known height of the origin, m (estimate).
-pub const START_OFFSET_M: f64 = 0.1;
+const START_OFFSET_M: f64 = 0.1;
 
 /// State of the barometer.
 #[derive(Debug, Clone, PartialEq)]

@@ -12,7 +12,7 @@ use spandrel_model::vehicle;
 /// Minimum light for feature tracking, lx (manufacturers of vision positioning systems specify more than 15 lx).
 pub const MIN_ILLUMINANCE_LUX: f64 = 15.0;
 /// Scale error, constant over a session, as a fraction of velocity (estimate).
-pub const SCALE_ERROR: f64 = 0.01;
+const SCALE_ERROR: f64 = 0.01;
 /// Sample rate, Hz (estimate: typical for on-board flow sensors).
 pub(crate) const SAMPLE_RATE_HZ: f64 = 20.0;
 

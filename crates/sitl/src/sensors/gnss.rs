@@ -18,12 +18,12 @@ use std::collections::VecDeque;
 /// Satellites above the elevation mask (estimate: four constellations, one frequency).
 pub const SATELLITE_COUNT: usize = 22;
 /// Slowly drifting fraction of the position noise; the white-noise fraction accounts for the remaining variance.
-pub const DRIFT_FRACTION: f64 = 0.995;
+const DRIFT_FRACTION: f64 = 0.995;
 /// White-noise fraction of the position noise: `DRIFT_FRACTION`² + `WHITE_NOISE_FRACTION`² = 1 (estimate: receivers smooth the
 /// ranges with the carrier phase, so that successive fixes differ by centimeters).
-pub const WHITE_NOISE_FRACTION: f64 = 0.1;
+const WHITE_NOISE_FRACTION: f64 = 0.1;
 /// Time constant of the drift, s (estimate: ionosphere and orbit errors at one receiver change over minutes).
-pub const DRIFT_TIME_CONSTANT_S: f64 = 120.0;
+const DRIFT_TIME_CONSTANT_S: f64 = 120.0;
 /// Multipath error with nearly all satellites hidden, m (estimate), and its time constant, s.
 const MAX_MULTIPATH_ERROR_M: f64 = 3.0;
 const MULTIPATH_TIME_CONSTANT_S: f64 = 8.0;

@@ -8,7 +8,7 @@ use spandrel_model::vehicle;
 
 /// Bias random walk per √s as a fraction of the initial bias (estimate: consumer inertial sensors drift by a few
 /// percent of their bias per minute).
-pub const BIAS_WALK_FRACTION: f64 = 0.005;
+const BIAS_WALK_FRACTION: f64 = 0.005;
 
 /// Number of samples between updates of the bias random walk.
 const BIAS_WALK_SAMPLES: u32 = 40;

@@ -7,21 +7,13 @@ use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
-use spandrel_model::vehicle::{SensorSpec, Vehicle};
+use spandrel_model::vehicle::Vehicle;
 
 /// Share of the vibration at the rotor frequencies, as amplitude (estimate: the peaks dominate in spectra of flight logs). The
 /// broadband share accounts for the remaining variance.
 const HARMONIC_SHARE: f64 = 0.8;
 /// Broadband share: `HARMONIC_SHARE`² + `BROADBAND_SHARE`² = 1.
 const BROADBAND_SHARE: f64 = 0.6;
-
-/// Returns the variance of the accelerometer, (m/s²)², and of the gyroscope, (rad/s)², in one sample of the broadband vibration in
-/// a hover.
-#[must_use]
-pub fn broadband_variances(sensors: &SensorSpec) -> (f64, f64) {
-    let squared = |value: f64| value * value;
-    (squared(BROADBAND_SHARE * sensors.accel_vibration_m_s2), squared(BROADBAND_SHARE * sensors.gyro_vibration_rad_s))
-}
 
 /// Vibration since the last sample of the inertial sensors.
 #[derive(Debug, Clone, PartialEq)]

@@ -26,9 +26,9 @@ const AGREEMENT_SIGMAS: f64 = 1.5;
 /// Standard deviation of the barometer offset after a reset, m (estimate).
 const RESET_BARO_OFFSET_SIGMA_M: f64 = 0.3;
 
-/// Returns the variance of a fix due to multipath, for an accuracy that the receiver states and its accuracy under an open sky.
-fn multipath_variance_m2(stated_m: f64, open_m: f64) -> f64 {
-    MULTIPATH_WEIGHT * (stated_m * stated_m - open_m * open_m).max(0.0)
+/// Returns the variance that the receiver states in excess of its accuracy under an open sky, m².
+fn excess_variance_m2(stated_m: f64, open_m: f64) -> f64 {
+    (stated_m * stated_m - open_m * open_m).max(0.0)
 }
 
 /// Non-zero elements of the Jacobian of one measurement.
@@ -43,11 +43,11 @@ impl Estimator {
         }
         let [horizontal_m, vertical_m] = self.noise.gnss_m;
         let open_m2 = horizontal_m * horizontal_m;
-        let horizontal_m2 = open_m2 + multipath_variance_m2(fix.eph_m, horizontal_m);
+        let horizontal_m2 = open_m2 + MULTIPATH_WEIGHT * excess_variance_m2(fix.eph_m, horizontal_m);
         self.fuse_fix(fix, horizontal_m2, now);
         // The slow part of the height's error is a state.
         let white_m = self.noise.gnss_height_white_m;
-        self.fuse_fix_height(fix, white_m * white_m + multipath_variance_m2(fix.epv_m, vertical_m), now);
+        self.fuse_fix_height(fix, white_m * white_m + MULTIPATH_WEIGHT * excess_variance_m2(fix.epv_m, vertical_m), now);
         let speed_m_s = self.noise.gnss_velocity_m_s;
         self.fuse_fix_velocity(fix, speed_m_s * speed_m_s * horizontal_m2 / open_m2.max(1e-12), now);
     }
@@ -116,7 +116,7 @@ impl Estimator {
         let since_s = self.latest_fix.map_or(0.0, |(_, at)| (now - at).s());
         self.latest_fix = Some((*fix, now));
         let keep = (1.0 - since_s / self.process.gnss_height_time_s).max(0.0);
-        let claimed = (fix.epv_m * fix.epv_m - usual * usual).max(0.0);
+        let claimed = excess_variance_m2(fix.epv_m, usual);
         self.multipath_variance_m2 = claimed.max(self.multipath_variance_m2 * keep);
         (usual * usual + self.multipath_variance_m2).sqrt()
     }
