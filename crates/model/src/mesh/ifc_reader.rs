@@ -8,8 +8,8 @@ use super::mesh_file::{MAX_NODES, MAX_TRIANGLES, MeshFile, MeshNode, check_file_
 use super::vectors::{Point, add_scaled};
 use ifc_lite_core::{DecodedEntity, EntityDecoder, EntityScanner, IfcType, RtcVerdict, SchemaVersion, is_geometry_job, slot};
 use ifc_lite_geometry::{GeometryRouter, RouterConfig, void_index_from_content};
-use rustc_hash::FxHashMap;
-use std::collections::{BTreeMap, BTreeSet};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Words at the beginning and at the end of each file, and the number of bytes at the end that are searched for the latter.
@@ -134,13 +134,14 @@ fn decode(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
 /// Finds the products with a shape, and the relations between entities.
 fn scan(file: &str, bytes: &[u8], decoder: &mut EntityDecoder, relations: &mut Relations) -> Result<Vec<Place>, String> {
     let mut products = Vec::new();
-    let mut ids = BTreeSet::new();
+    let mut ids = FxHashSet::default();
     let mut scanner = EntityScanner::new(bytes);
     while let Some((id, class, start, end)) = scanner.next_entity() {
+        // The library keeps decoded entities by their numbers and would return one in place of the other.
+        if !ids.insert(id) {
+            return Err(format!("{file}:{}: #{id}: occurs twice (allowed: once)", line(bytes, start)));
+        }
         if is_geometry_job(class, &bytes[start..end]) {
-            if !ids.insert(id) {
-                return Err(format!("{file}:{}: #{id}: occurs twice (allowed: once)", line(bytes, start)));
-            }
             products.push(Place { id, start, end });
             relations.has_girders |= GIRDERS.contains(&class);
         } else if Relations::takes(class) {
@@ -468,6 +469,9 @@ mod tests {
         assert_eq!(error(cut), format!("a.ifc: truncated: END-ISO-10303-21 is missing at the end ({} bytes)", cut.len()));
         assert_eq!(error(&file(METERS, "")), "a.ifc: no triangles (allowed: at least one product with a body)");
         assert_eq!(error(&file(METERS, &(column.clone() + &column))), "a.ifc:24: #20: occurs twice (allowed: once)");
+        let drain = BoxProduct::new(40, ("IFCOPENINGELEMENT", ",$,.OPENING."), "'drain'", [0.0; 3], [0.5, 0.5, 2.0]).text();
+        let cut = "#40=IFCRELVOIDSELEMENT('cut',$,$,$,#20,#40);\n";
+        assert_eq!(error(&file(METERS, &(column.clone() + &drain + cut))), "a.ifc:32: #40: occurs twice (allowed: once)");
         let unit = good.replace(
             "#5=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);",
             "#5=IFCCONVERSIONBASEDUNIT(*,.LENGTHUNIT.,'ELL',#9);\n#9=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(-1.),$);",
