@@ -93,6 +93,11 @@ fn flight_expert_completes_the_cable_stayed_bridge_without_contact() {
     assert_expert_completes("cable-stayed", "3", 5);
 }
 
+#[test]
+fn flight_expert_completes_the_winter_job_with_a_cold_battery_without_contact() {
+    assert_expert_completes("winter", "3", 5);
+}
+
 /// Share of the time off the path and loss by speeding that the drills' criteria allow, as in crates/training/src/plan/rules.toml.
 const MAX_OFF_PATH: f64 = 0.1;
 const MAX_SPEEDING: f64 = 0.02;

@@ -24,6 +24,7 @@ job-practice = Üben an zwei Brücken
 job-prestressed = Spannbetonbrücke: Randträger, Trägerzwischenräume, Pfeilerkopfbalken, Lager
 job-truss = Fachwerkbrücke: Fachwerkfelder, Fahrbahnrost, Bolzen und Lager
 job-two-bridges = Zwei Brücken: Seite der Fahrbahntafel, Bogenuntersicht, Zwischenraum, Pfeiler
+job-winter = Winter an einer Trägerbrücke: kalter Akku, schwacher Funk, hängende Seile
 
 job-task-curve = Kurve unter dem Bogen
 job-task-slab-framing = Seite der Fahrbahntafel, Kamera zur Fahrbahntafel

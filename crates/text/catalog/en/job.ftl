@@ -27,6 +27,7 @@ job-practice = Practice at two bridges
 job-prestressed = Prestressed girder bridge: outer girder, girder bays, pier cap, bearings
 job-truss = Truss bridge: truss panels, floor system, pins and bearings
 job-two-bridges = Two bridges: slab side, arch bottom, interlayer, pier
+job-winter = Winter at a girder bridge: cold battery, weak radio, hanging ropes
 
 # Names of tasks.
 job-task-curve = Curve under the arch

@@ -24,6 +24,7 @@ job-practice = Práctica en dos puentes
 job-prestressed = Puente de vigas pretensadas: viga exterior, espacios entre vigas, cabezal, apoyos
 job-truss = Puente de celosía: paneles, sistema de piso, pasadores y apoyos
 job-two-bridges = Dos puentes: costado del tablero, intradós del arco, espacio intermedio, pila
+job-winter = Invierno en un puente de vigas: batería fría, radio débil, cuerdas colgantes
 
 job-task-curve = Curva bajo el arco
 job-task-slab-framing = Costado del tablero, cámara hacia el tablero
