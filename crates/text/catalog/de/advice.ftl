@@ -1,5 +1,6 @@
 advice-lesson = Die Wertung einer Lektion zählt nicht. Wenn Sie jeden Schritt erledigt haben, fliegen Sie die erste Übung.
 advice-nothing-to-correct = Nichts zu verbessern: Fliegen Sie den nächsten Auftrag.
+advice-certified = Sie sind zertifiziert, und kein einzelner Fehler fällt auf.
 advice-not-certified = Kein einzelner Fehler fällt auf, aber Sie sind noch nicht zertifiziert: { $unmet }.
 advice-fly-again = Kein einzelner Fehler fällt auf: Fliegen Sie den Auftrag noch einmal.
 advice-not-finished = Kein einzelner Fehler fällt auf, aber der Auftrag ist nicht beendet: Fliegen Sie ihn bis zum Ende.

@@ -1,6 +1,7 @@
 # Things to do better after a flight.
 advice-lesson = The scores of a lesson don't matter. Once you have done every step, fly the first drill.
 advice-nothing-to-correct = Nothing to correct: fly the next job.
+advice-certified = You are certified, and no single mistake stands out.
 advice-not-certified = No single mistake stands out, but you are not certified yet: { $unmet }.
 advice-fly-again = No single mistake stands out: fly the job again.
 advice-not-finished = No single mistake stands out, but the job is not finished: fly it to the end.

@@ -1,5 +1,6 @@
 advice-lesson = La puntuación de una lección no importa. Cuando haya completado todos los pasos, haga el primer ejercicio.
 advice-nothing-to-correct = Nada que corregir: haga el siguiente trabajo.
+advice-certified = Ha obtenido la certificación y no destaca ningún error.
 advice-not-certified = No destaca ningún error, pero todavía no obtiene la certificación: { $unmet }.
 advice-fly-again = No destaca ningún error: repita el trabajo.
 advice-not-finished = No destaca ningún error, pero el trabajo no está terminado: complételo.

@@ -100,7 +100,10 @@ pub fn translation_languages() -> impl Iterator<Item = Language> + Clone {
 }
 
 /// Returns a sentence in other languages, by language tag.
-fn translations(languages: impl Iterator<Item = Language>, words: impl Fn(Language) -> String) -> BTreeMap<String, String> {
+fn translations(
+    languages: impl Iterator<Item = Language>,
+    mut words: impl FnMut(Language) -> String,
+) -> BTreeMap<String, String> {
     languages.map(|language| (language.tag().to_owned(), words(language))).collect()
 }
 
@@ -147,7 +150,11 @@ pub fn session_advice(
     let points: Vec<AdvicePoint> = causes.iter().map(|cause| point(cause, &steps, &translated, &mut scan)).collect();
     let next =
         steps.first().map(|step| NextFlight { scenario: step.scenario.clone(), command: step.command(&evidence.record.trainee) });
-    let note = |language| no_findings(evidence.record, language);
+    let mut note = |language| {
+        scan.language = language;
+        let missed = pictures::missed(&scan, "all", |_| true);
+        no_findings(evidence.record, missed.map(|(words, _)| words), language)
+    };
     SessionAdvice {
         note: points.is_empty().then(|| note(Language::English)),
         note_translations: if points.is_empty() { translations(languages, note) } else { BTreeMap::new() },
@@ -283,16 +290,17 @@ fn session_sentence(measure: SessionMeasure, rule: &PlanRule, scan: &FlightScan<
     }
 }
 
-/// Returns the sentence for a flight without findings. It praises only a flight that did the job.
-fn no_findings(record: &SessionRecord, language: Language) -> String {
-    if record.certified && record.is_complete() {
-        return text!(language, "advice-nothing-to-correct");
-    }
-    match (record.is_complete(), record.unmet.first()) {
+/// Returns the note on a flight without findings, and the best chance to find one more defect if it missed some. It praises only a
+/// flight that did the job.
+fn no_findings(record: &SessionRecord, missed: Option<String>, language: Language) -> String {
+    let verdict = match (record.is_complete(), record.unmet.first()) {
+        (true, _) if record.certified && missed.is_none() => return text!(language, "advice-nothing-to-correct"),
+        (true, _) if record.certified => text!(language, "advice-certified"),
         (true, Some(unmet)) => text!(language, "advice-not-certified", unmet = translated(unmet, language)),
         (true, None) => text!(language, "advice-fly-again"),
         (false, _) => text!(language, "advice-not-finished"),
-    }
+    };
+    [Some(verdict), missed].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

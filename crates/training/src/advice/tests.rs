@@ -69,15 +69,20 @@ fn exact_one_habit_in_several_tasks_is_one_cause() {
 
 #[test]
 fn exact_flight_without_findings_is_not_praised_falsely() {
-    assert_eq!(no_findings(&perfect_record("anna", 1), Language::English), "Nothing to correct: fly the next job.");
+    let perfect = perfect_record("anna", 1);
+    assert_eq!(no_findings(&perfect, None, Language::English), "Nothing to correct: fly the next job.");
+    let missed = || Some("You missed 2 of 9 defects.".to_owned());
+    assert_eq!(
+        no_findings(&perfect, missed(), Language::English),
+        "You are certified, and no single mistake stands out. You missed 2 of 9 defects."
+    );
     let mut record = perfect_record("anna", 1);
     (record.certified, record.unmet) = (false, vec!["precision 60, 70 needed".into()]);
-    assert_eq!(
-        no_findings(&record, Language::English),
-        "No single mistake stands out, but you are not certified yet: flight precision 60, 70 needed."
-    );
-    assert!(no_findings(&aborted_record("anna", 1), Language::English).contains("not finished"));
-    let german = no_findings(&record, Language::German);
+    let words = "No single mistake stands out, but you are not certified yet: flight precision 60, 70 needed.";
+    assert_eq!(no_findings(&record, None, Language::English), words);
+    assert_eq!(no_findings(&record, missed(), Language::English), format!("{words} You missed 2 of 9 defects."));
+    assert!(no_findings(&aborted_record("anna", 1), None, Language::English).contains("not finished"));
+    let german = no_findings(&record, None, Language::German);
     assert_eq!(german, "Kein einzelner Fehler fällt auf, aber Sie sind noch nicht zertifiziert: Flugpräzision 60, 70 nötig.");
     let (rules, steps) = (rules(), steps(&perfect_record("anna", 1)));
     assert!(causes(&steps, &rules).is_empty(), "the job's own step is no cause");
