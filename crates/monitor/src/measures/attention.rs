@@ -7,7 +7,6 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::site::changes::SiteChanges;
-use spandrel_model::site::geometry::Geometry;
 use spandrel_model::site::inspector_walks::InspectorWalks;
 use spandrel_model::site::{CameraPose, DefectView, Site};
 use spandrel_model::time::SimTime;
@@ -23,8 +22,8 @@ pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
     fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
     /// Returns the name of the nearest object within `max_m`, for messages to the pilot.
     fn nearest_object_name(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
-    /// Returns the bridges and the ground; `None` if they are unknown.
-    fn geometry(&self) -> Option<&Geometry> {
+    /// Returns the site with the bridges, the lanes and the ground; `None` if they are unknown.
+    fn site(&self) -> Option<&Site> {
         None
     }
     /// Returns a copy of the site with these bridge closures and walks of the inspector; `None` if nothing moves on the site.
@@ -59,8 +58,8 @@ impl SiteSurvey for Site {
     fn nearest_object_name(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String> {
         self.nearest(position_m, max_m, at).map(|nearest| self.object_name(nearest.object))
     }
-    fn geometry(&self) -> Option<&Geometry> {
-        Some(Self::geometry(self))
+    fn site(&self) -> Option<&Site> {
+        Some(self)
     }
     fn with_changes(&self, changes: SiteChanges) -> Option<Arc<dyn SiteSurvey>> {
         Some(Arc::new(Self::with_changes(self, changes)))

@@ -116,13 +116,13 @@ impl Monitor {
     /// Returns the way around the bridge or the ground if it blocks the straight way to a place.
     fn detour(&mut self, truth: &Truth, far_place_m: Option<Vec3<Enu>>) -> Option<Detour> {
         let Self { survey, detours, .. } = self;
-        let geometry = survey.as_ref().and_then(|survey| survey.geometry());
-        let Some((geometry, to_m)) = geometry.zip(far_place_m) else {
+        let site = survey.as_ref().and_then(|survey| survey.site());
+        let Some((site, to_m)) = site.zip(far_place_m) else {
             *detours = DetourFinder::default();
             return None;
         };
         let motion = &truth.motion;
-        let found = detours.update(geometry, truth.time, (motion.position_m, to_m))?;
+        let found = detours.update(site, truth.time, (motion.position_m, to_m))?;
         let offset = HeadingOffset::new(found.place_m - motion.position_m, motion.ned_from_frd.yaw_rad());
         Some(Detour { kind: found.kind, way: offset.way() })
     }
