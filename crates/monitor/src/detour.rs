@@ -12,15 +12,16 @@ use spandrel_model::time::SimTime;
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Distance from the bridge below which the straight way counts as blocked, m (estimate: half a drone and a control error).
 const MIN_CLEARANCE_M: f64 = 1.0;
-/// Distances from the bridge that a way around keeps, m (estimate), and whether it may lead over lanes and walkways; the first with which
-/// there is a way.
+/// Distance from the bridge that a way around keeps if there is such a way, m (estimate).
+const WIDE_CLEARANCE_M: f64 = 2.0;
+/// Margins that a way around keeps: the first with which there is a way. Lanes come before the distance, because a contact with the bridge
+/// harms the drone, and a fall onto a road harms people.
 const MARGINS: [Margin; 4] = [
     Margin { clearance_m: WIDE_CLEARANCE_M, is_over_lanes: false },
     Margin { clearance_m: MIN_CLEARANCE_M, is_over_lanes: false },
     Margin { clearance_m: WIDE_CLEARANCE_M, is_over_lanes: true },
     Margin { clearance_m: MIN_CLEARANCE_M, is_over_lanes: true },
 ];
-const WIDE_CLEARANCE_M: f64 = 2.0;
 /// Distance from the axis of a lane within which a place counts as above it, m (estimate: half a lane of 3.66 m and half a drone).
 const LANE_REACH_M: f64 = 2.3;
 /// Length of the ends of a line on which only the structure itself blocks it, m (estimate: the drone may be close to the surface
