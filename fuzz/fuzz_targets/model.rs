@@ -1,5 +1,5 @@
 //! Feeds arbitrary bytes to the readers of 3D models and of imported bridges, which must return sound triangles or a message and never
-//! panic. The library for IFC panics at some damaged files, which the reader turns into a message.
+//! panic. The IFC library panics on some damaged files; the reader turns that into a message.
 #![no_main]
 
 use spandrel_model::mesh::reader::{ModelFormat, read};
@@ -7,10 +7,10 @@ use spandrel_model::scenario::bridges::element_map::ElementMap;
 use spandrel_model::scenario::bridges::model::Model;
 use std::panic::{set_hook, take_hook};
 
-/// Names of the libraries whose panics the reader of IFC files catches, as they begin in the paths of their sources.
+/// Part of the source paths of the IFC libraries, whose panics the reader catches.
 const CAUGHT: &str = "/ifc-lite-";
 
-/// Makes libFuzzer stop at every panic except those of the library for IFC. One that isn't caught stops it nevertheless.
+/// Lets libFuzzer continue after panics in the IFC libraries. An uncaught panic still stops it.
 fn tolerate_caught_panics() {
     let stop = take_hook();
     set_hook(Box::new(move |panic| {

@@ -14,13 +14,13 @@ const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 const MIN_CLEARANCE_M: f64 = 1.0;
 /// Distance from the bridge that a way around keeps if there is such a way, m (estimate).
 const WIDE_CLEARANCE_M: f64 = 2.0;
-/// Margins that a way around keeps: the first with which there is a way. Lanes come before the distance, because a contact with the bridge
-/// harms the drone, and a fall onto a road harms people.
+/// Margins to try, in order. Avoiding lanes takes precedence over the wider clearance: hitting the bridge damages the drone, but falling
+/// onto a road endangers people.
 const MARGINS: [Margin; 4] = [
-    Margin { clearance_m: WIDE_CLEARANCE_M, is_over_lanes: false },
-    Margin { clearance_m: MIN_CLEARANCE_M, is_over_lanes: false },
-    Margin { clearance_m: WIDE_CLEARANCE_M, is_over_lanes: true },
-    Margin { clearance_m: MIN_CLEARANCE_M, is_over_lanes: true },
+    Margin { clearance_m: WIDE_CLEARANCE_M, may_cross_lanes: false },
+    Margin { clearance_m: MIN_CLEARANCE_M, may_cross_lanes: false },
+    Margin { clearance_m: WIDE_CLEARANCE_M, may_cross_lanes: true },
+    Margin { clearance_m: MIN_CLEARANCE_M, may_cross_lanes: true },
 ];
 /// Distance from the axis of a lane within which a place counts as above it, m (estimate: half a lane of 3.66 m and half a drone).
 const LANE_REACH_M: f64 = 2.3;
@@ -37,7 +37,7 @@ const DISTANCES_M: [f64; 5] = [6.0, 10.0, 16.0, 26.0, 42.0];
 const DIRECTIONS: u32 = 8;
 /// Height above the highest obstacle on the straight way at which it can be crossed, m (estimate).
 const CROSSING_HEIGHT_M: f64 = 4.0;
-/// Height above the highest ground or water on the straight way at which a way can lead below a deck, m (estimate).
+/// Height above the highest ground or water along the straight way at which a way may pass under a deck, m (estimate).
 const UNDERPASS_HEIGHT_M: f64 = 4.0;
 /// Smallest height of a place above ground and water, m (estimate).
 const MIN_HEIGHT_M: f64 = 2.0;
@@ -61,13 +61,13 @@ pub struct DetourPlace {
     pub kind: DetourKind,
 }
 
-/// What a way keeps away from.
+/// Clearance of a way around, and whether it avoids traffic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Margin {
     /// Distance from the bridge, m.
     clearance_m: f64,
-    /// Whether it may lead over lanes and walkways.
-    is_over_lanes: bool,
+    /// Whether the way may pass above lanes and walkways.
+    may_cross_lanes: bool,
 }
 
 /// A way around: places from which the rest of the way is clear.
@@ -106,7 +106,7 @@ impl DetourFinder {
     pub fn update(&mut self, site: &Site, now: SimTime, (from_m, to_m): (Vec3<Enu>, Vec3<Enu>)) -> Option<DetourPlace> {
         let space = FreeSpace::new(site);
         // A way around ends only where the straight way is as clear as the way around.
-        let straight = Margin { clearance_m: MIN_CLEARANCE_M, is_over_lanes: true };
+        let straight = Margin { clearance_m: MIN_CLEARANCE_M, may_cross_lanes: true };
         let needed = self.route.as_ref().map_or(straight, |route| route.margin);
         if space.is_clear((from_m, to_m), needed) {
             self.route = None;
@@ -125,7 +125,7 @@ impl DetourFinder {
 /// A line between two places.
 type Line = (Vec3<Enu>, Vec3<Enu>);
 
-/// The space outside of the static geometry, and that above lanes.
+/// The space around the static geometry, and the lanes to avoid.
 struct FreeSpace<'a> {
     geometry: &'a Geometry,
     lanes: &'a [Lane],
@@ -147,9 +147,9 @@ impl<'a> FreeSpace<'a> {
         hit.is_none_or(|hit| hit.surface != Surface::Bridge) && samples((from_m, to_m), END_M).all(is_free)
     }
 
-    /// Returns whether a place keeps a margin.
+    /// Returns whether a place satisfies a margin.
     fn keeps(&self, p: Vec3<Enu>, margin: Margin) -> bool {
-        self.geometry.nearest_member(p, margin.clearance_m).is_none() && (margin.is_over_lanes || !self.is_over_lane(p))
+        self.geometry.nearest_member(p, margin.clearance_m).is_none() && (margin.may_cross_lanes || !self.is_over_lane(p))
     }
 
     /// Returns whether a place is above a lane or walkway.
@@ -169,7 +169,9 @@ impl<'a> FreeSpace<'a> {
     /// Returns the shortest of the ways that lead via one place, or else via two.
     fn route(&self, from_m: Vec3<Enu>, to_m: Vec3<Enu>) -> Option<Route> {
         let line = (from_m, to_m);
-        let heights_m = [from_m.up(), to_m.up(), self.crossing_height_m(line), self.underpass_height_m(line)];
+        let floor_m = self.highest_floor_m(line);
+        let crossing_m = self.highest_member_m(line).max(floor_m) + CROSSING_HEIGHT_M;
+        let heights_m = [from_m.up(), to_m.up(), crossing_m, floor_m + UNDERPASS_HEIGHT_M];
         MARGINS.into_iter().find_map(|margin| {
             let free =
                 |place_m: &Vec3<Enu>| self.keeps(*place_m, margin) && place_m.up() >= self.floor_m(*place_m) + MIN_HEIGHT_M;
@@ -216,19 +218,19 @@ impl<'a> FreeSpace<'a> {
         pairs.into_iter().find(|pair| self.is_clear(*pair, margin)).map(|(a, b)| vec![a, b])
     }
 
-    /// Returns the height above the ground and the members on a line at which it can be crossed, m.
-    fn crossing_height_m(&self, line: Line) -> f64 {
+    /// Returns the height of the highest member on a line, m; negative infinity if there is none.
+    fn highest_member_m(&self, line: Line) -> f64 {
         let top_m = |p: Vec3<Enu>| {
             let member = self.geometry.nearest_member(p, WIDE_CLEARANCE_M);
             let shape = member.and_then(|member| self.geometry.shape(member.object.0 as usize));
-            shape.map_or(f64::NEG_INFINITY, |shape| shape.bounds().1.up()).max(self.floor_m(p))
+            shape.map_or(f64::NEG_INFINITY, |shape| shape.bounds().1.up())
         };
-        samples(line, 0.0).map(top_m).fold(f64::NEG_INFINITY, f64::max) + CROSSING_HEIGHT_M
+        samples(line, 0.0).map(top_m).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Returns the height above the ground and water on a line at which a way can lead below a deck, m.
-    fn underpass_height_m(&self, line: Line) -> f64 {
-        samples(line, 0.0).map(|p| self.floor_m(p)).fold(f64::NEG_INFINITY, f64::max) + UNDERPASS_HEIGHT_M
+    /// Returns the height of the highest ground or water below a line, m.
+    fn highest_floor_m(&self, line: Line) -> f64 {
+        samples(line, 0.0).map(|p| self.floor_m(p)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Returns the maneuver to the first place.

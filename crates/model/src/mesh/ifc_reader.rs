@@ -137,7 +137,7 @@ fn scan(file: &str, bytes: &[u8], decoder: &mut EntityDecoder, relations: &mut R
     let mut ids = FxHashSet::default();
     let mut scanner = EntityScanner::new(bytes);
     while let Some((id, class, start, end)) = scanner.next_entity() {
-        // The library keeps decoded entities by their numbers and would return one in place of the other.
+        // The library caches decoded entities by number and could return one in place of the other.
         if !ids.insert(id) {
             return Err(format!("{file}:{}: #{id}: occurs twice (allowed: once)", line(bytes, start)));
         }

@@ -300,7 +300,10 @@ fn no_findings(record: &SessionRecord, missed: Option<String>, language: Languag
         (true, None) => text!(language, "advice-fly-again"),
         (false, _) => text!(language, "advice-not-finished"),
     };
-    [Some(verdict), missed].into_iter().flatten().collect::<Vec<_>>().join(" ")
+    match missed {
+        Some(missed) => format!("{verdict} {missed}"),
+        None => verdict,
+    }
 }
 
 #[cfg(test)]
